@@ -297,20 +297,25 @@ class HangError(BaseException):
 
 
 @contextmanager
-def patience(seconds: float) -> Iterator[None]:
-    """Raise HangError if the block takes longer [s]; where the system knows no alarm it may take any time."""
+def patience(seconds: float) -> Iterator[list[HangError]]:
+    """Raise HangError if the block takes longer [s]; where the system knows no alarm it may take any time.
+
+    The list has the error once it has been raised: compiled code can turn it into an error of its own.
+    """
+    rung: list[HangError] = []
     if not hasattr(signal, "setitimer"):
-        yield
+        yield rung
         return
 
     def too_long(number: int, frame: Any) -> None:
         del number, frame
-        raise HangError(f"no end after {seconds:g} s")
+        rung.append(HangError(f"no end after {seconds:g} s"))
+        raise rung[0]
 
     before = signal.signal(signal.SIGALRM, too_long)
     signal.setitimer(signal.ITIMER_REAL, seconds)
     try:
-        yield
+        yield rung
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0.0)
         signal.signal(signal.SIGALRM, before)
@@ -321,10 +326,11 @@ def judged(place: int, case: Case) -> Judgement:
     del place
     report(0.0)
     try:
-        with patience(PATIENCE):
-            return judge(case.scenario)
+        with patience(PATIENCE) as rung:
+            found = judge(case.scenario)
     except HangError as error:
         return Judgement(SILENT, f"hang: {error}")
+    return Judgement(SILENT, f"hang: {rung[0]}") if rung else found
 
 
 def lasted(place: int, name: str, duration: float) -> LongRun | str:

@@ -13,10 +13,36 @@ from support_exudyn import Scenario
 from support_exudyn.files import load_toml, parsed, scenario_of, scenario_schema, scenario_text
 from support_exudyn.files.own_modules import OURS
 from tests import strategies as some
-from tests.files.test_fuzz_scenario_files import FOLDER, SHORT
 from user_forces import InputError
 from user_forces.values.sourced import SourcedNumber
 from user_forces.values.value import Value
+
+SHORT = """
+machine = "reference"
+duration_s = 5
+step_ms = 0.5
+[pins.rear_base]
+clearance_mm = 1.5
+bore_radius_mm = 65.5
+friction = {type = "CubicCoulomb", sliding_coefficient = 0.2}
+[actuators.front_column]
+type = "CylinderAndRod"
+rod_mass_kg = 300
+drive = {type = "OilColumn", bore_area_mm2 = 1e5, oil_length_mm = 500, bulk_modulus_GPa = 1.5}
+[drives.rear_column]
+mode = 1
+stroke_mm = 100
+[drive]
+table = "columns_apart.csv"
+column = "front_column"
+[loads.roof]
+type = "Roof"
+body = "canopy"
+point_mm = [0, 0]
+stiffness_kN_per_mm = 10
+descent = {mode = 2, stroke_mm = 5, start_s = 0, end_s = 1}
+"""
+FOLDER = Path(__file__).parents[2] / "support_exudyn" / "files" / "examples"
 
 some.kinds()  # imports all modules: not while something is drawn
 VALIDATOR = Draft202012Validator(scenario_schema())
