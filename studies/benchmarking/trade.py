@@ -273,13 +273,14 @@ def _line(axes: Axes, name: str, points: Sequence[TradePoint]) -> None:
     )
     if reports:
         for one, at in zip(points, y, strict=True):
-            is_last = one.setting == PRESETS[-1] and name == OURS_ENGINE  # at the edge
+            # at the edge of the axes, and where two points can be next to each other
+            is_left = (one.setting, name) in ((PRESETS[-1], OURS_ENGINE), (PRESETS[1], OURS_COMPILED))
             axes.annotate(
                 f'"{one.setting}"',
                 (one.seconds, at),
-                (-7, -2) if is_last else (7, -2),
+                (-7, -2) if is_left else (7, -2),
                 textcoords="offset points",
-                ha="right" if is_last else "left",
+                ha="right" if is_left else "left",
                 fontsize=7.5,
                 color=colour,
                 bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.5},
