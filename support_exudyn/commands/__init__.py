@@ -1,1 +1,1 @@
-"""The command line, one command a file; `parser` says what a command is."""
+"""The command line: each command is a function, and `app` reads its arguments as options."""
