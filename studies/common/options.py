@@ -74,6 +74,6 @@ class OptionWords:
         import_modules(self.imports)
         subject = own_subject(self.machine, self.pin) if self.machine else paper_subject()
         if subject.is_slow:
-            only = "only the Exudyn formulation covers it: minutes where --list tells seconds"
+            only = "only the Exudyn formulation covers it: minutes, where --list prints seconds"
             warn(f"--machine {self.machine}: {only}")
         return Options(self.out, self.workers, self.out / KEPT, self.machines, self.runs, subject)

@@ -26,7 +26,7 @@ def compare(
     until: Until = math.inf,
     json: Json = False,
 ) -> int:
-    """Print by how much files differ from the first, and the verdict, which the exit code tells.
+    """Print by how much files differ from the first, and the verdict, which the exit code gives.
 
     Any file that can be read will do: runs, CSV and text tables, results of ADAMS, Exudyn's sensor and solution
     files, MATLAB, Parquet. Columns are channels by their names, or by --map.

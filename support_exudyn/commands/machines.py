@@ -42,7 +42,7 @@ def check(
     """Print what is known of a machine, and draw it.
 
     Args:
-        out: Folder of the figure (beside the file, or here).
+        out: Folder of the figure (next to the file, or here).
         stroke_mm: By how much the actuators extend from the start on [mm] (what the file says).
     """
     from support_exudyn.machines.check import CheckTable, check_machine  # and numpy's linear algebra

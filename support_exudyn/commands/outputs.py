@@ -71,7 +71,7 @@ def render(
 
     Args:
         run: File of a run.
-        out: Folder for the frames, with the movie beside it (RUN_frames). With --still the file of the picture.
+        out: Folder for the frames, with the movie next to it (RUN_frames). With --still the file of the picture.
         frames_per_second: Of the movie, 0.1 to 240 (25).
         speed: Seconds of the run in a second of the movie (1); 0.01 is a hundred times slower, for impacts. A
             frame shows the record next to its time.
@@ -189,7 +189,7 @@ def export(
             NAME_pins.xdmf, with one HDF5 file for both; vtu: a folder NAME_vtu with a file per step,
             machine.pvd and pins.pvd; csv: NAME.csv; hdf5: NAME_channels.h5 for MATLAB and others; solution:
             NAME_solution.txt, Exudyn's own solution file, all records.
-        out: Folder (NAME_export beside the run).
+        out: Folder (NAME_export next to the run).
         every: One in so many records.
         frames_per_second: The records nearest to so many times per second of the run (25 for meshes, all
             records for tables).

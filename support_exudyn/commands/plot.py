@@ -74,7 +74,7 @@ def plot(
         pin: Pin of orbit, section, spectrum and stability (the first with clearance).
         phase: Share of the period, 0 to 1, at which a section looks (0).
         section: Two channels of a section once in every period.
-        out: Folder of the figures (RUN_figures beside the run), or file of the only figure: .png, .pdf or .svg.
+        out: Folder of the figures (RUN_figures next to the run), or file of the only figure: .png, .pdf or .svg.
     """
     from support_exudyn.postprocessing.figures import style
 
@@ -83,7 +83,7 @@ def plot(
     curves = {name: path for name, path in names.items() if is_of_others(path)}
     runs = {name: Result.load(path) for name, path in names.items() if name not in curves}
     if not runs:
-        raise InputError(f"{run}: is no run; allowed: a run beside which it is drawn, plot RUN {run}")
+        raise InputError(f"{run}: is no run; allowed: with a run before it, plot RUN {run}")
     asked = {"orbit": orbit, "poincare": poincare or section, "spectrum": spectrum, "stability": stability}
     kinds = [kind for kind, is_asked in asked.items() if is_asked]
     view = DrawnPin(pin, (after, until), phase, section or ())

@@ -49,7 +49,7 @@ def run(
 
     Args:
         file: A scenario, as TOML.
-        out: File of the run (beside the scenario, with the ending .h5).
+        out: File of the run (next to the scenario, with the ending .h5).
         solution: Also write Exudyn's own solution file of the run; with the ending .sol in its binary format.
         all: Print all that came out, as `show RUN` does.
     """

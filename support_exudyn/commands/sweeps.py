@@ -47,7 +47,7 @@ def sweep(
 
     Args:
         file: What is varied, as TOML.
-        out: The store (FILE_sweep beside FILE).
+        out: The store (FILE_sweep next to FILE).
         workers: Processes on this machine (as many as there are cores).
         scheduler: Address of a Dask scheduler, such as tcp://10.0.0.5:8786, whose workers have this program,
             too; needs `pip install 'support-exudyn[cluster]'`.

@@ -100,6 +100,8 @@ def in_short(result: Result) -> list[tuple[str, str]]:
         forces = [name for name in found if name.startswith("pin.") and name.endswith(".force.largest")]
         peak = max(forces, key=lambda name: found[name].value, default="")
         own = peak.removesuffix(".force.largest")
+    if not own:
+        return [("forces", "none recorded")]
     numbers = {"mean force": f"{own}.force.mean", "peak force": peak, "fluctuation (RMS)": f"{own}.force.std"}
     rows = [(f"{own}: {what}", _number(found.get(name))) for what, name in numbers.items()]
     onsets = next((some for pin, some in result.onsets.items() if result.scenario.contact_stem(pin) == own), ())
