@@ -71,7 +71,7 @@ def render(
 
     Args:
         run: File of a run.
-        out: Folder for the frames, with the movie next to it (RUN_frames). With --still the file of the picture.
+        out: Folder for the frames, with the movie next to it (RUN_frames). With --still: file of the picture.
         frames_per_second: Of the movie, 0.1 to 240 (25).
         speed: Seconds of the run in a second of the movie (1); 0.01 is a hundred times slower, for impacts. A
             frame shows the record next to its time.

@@ -74,7 +74,7 @@ def plot(
         pin: Pin of orbit, section, spectrum and stability (the first with clearance).
         phase: Share of the period, 0 to 1, at which a section looks (0).
         section: Two channels of a section once in every period.
-        out: Folder of the figures (RUN_figures next to the run), or file of the only figure: .png, .pdf or .svg.
+        out: Folder of the figures (RUN_figures next to the run), or file of the only figure (.png, .pdf, .svg).
     """
     from support_exudyn.postprocessing.figures import style
 

@@ -19,6 +19,7 @@ from support_exudyn import (
     Result,
     Scenario,
     SolverSettings,
+    UniformSpeed,
     simulate,
 )
 from support_exudyn.mechanics.kinetics import kinetics_of
@@ -39,6 +40,7 @@ from tests.roof_cases import (
     Ram,
     elastic_block,
     over_the_canopy,
+    over_the_ram,
     pressed_support,
     thrown,
 )
@@ -106,6 +108,14 @@ def test_a_damped_roof_gives_back_what_the_closed_form_says(damping: float) -> N
     assert result["ram.velocity_y"][-1] == pytest.approx(-back, rel=1e-4)
     assert result["energy.damping_loss"][-1] == pytest.approx(0.5 * MASS * (1.0 - back**2), rel=1e-4)
     assert result.energy_error < 1e-2
+
+
+def test_a_ram_that_a_descent_pushes_is_given_its_work() -> None:
+    # the roof overtakes the ram at rest: seen from the roof, the ram is thrown at it
+    down = over_the_ram(gap=0.01, descent=UniformSpeed(stroke=1.0, start=0.0, end=1.0))
+    result = simulate(replace(thrown(0.01, 1e-4), machine=Ram(), loads={"roof": down}))
+    assert result["ram.velocity_y"][-1] == pytest.approx(-2.0, rel=1e-4)  # second order: 1e-5
+    assert result["energy.work"][-1] == pytest.approx(0.5 * MASS * 4.0, rel=1e-4)
 
 
 def test_an_applied_force_gives_its_work_to_the_ram() -> None:

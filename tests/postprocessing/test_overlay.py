@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 from support_exudyn import Result
-from support_exudyn.files.series.read import read_series
 from support_exudyn.postprocessing.figures.overlay import difference, overlay
 from tests import synthetic
 from tests.cases.run_cases import loose_support
@@ -38,15 +35,3 @@ def test_a_difference_is_taken_where_both_have_records() -> None:
     assert line.get_xdata() == pytest.approx(shared)
     assert line.get_ydata() == pytest.approx(200.0 * np.sin(shared))
     assert drawing.get_suptitle() == "b less a, 0 to 1 s"
-
-
-@pytest.mark.parametrize(
-    ("title", "scale"), [("tip.x_mm", 1e-3), ("tip.x [mm]", 1e-3), ("tip.x_m", 1.0), ("tip.x [m]", 1.0)]
-)
-def test_curves_of_files_are_read_by_their_units(tmp_path: Path, title: str, scale: float) -> None:
-    path = tmp_path / "a.csv"
-    path.write_text(f"time_ms,{title}\n0,1\n500,2\n", encoding="utf-8")
-    drawing = overlay({"a": run(0.1)}, ["tip.x"], curves={"b": read_series(path)})
-    line = drawing.axes[0].lines[1]
-    assert line.get_xdata() == pytest.approx([0.0, 0.5])
-    assert line.get_ydata() == pytest.approx([1e3 * scale, 2e3 * scale])

@@ -54,9 +54,6 @@ def pool() -> Iterator[Workers]:
         yield pool
 
 
-# --- one that ends ---
-
-
 def test_the_job_whose_process_ends_is_told_and_all_others_are_done(pool: Workers, tmp_path: Path) -> None:
     ways = ["at work", "killed", *["good"] * 4, "crashed", "left", "good"]
     told: list[ProcessEndedError] = []
