@@ -56,7 +56,7 @@ def test_the_installed_command_is_the_module() -> None:
         ("show no.h5", 1, "no.h5: no such file"),
         ("sweep a.toml --workers 2 --scheduler tcp://x:1", 1, "allowed: without --scheduler"),
         ("chart no tip.x --tornado --histogram", 1, "allowed: one of them"),
-        ("plot no.csv", 1, "is no run; allowed: a run beside which it is drawn"),
+        ("plot no.csv", 1, "is no run; allowed: with a run before it"),
         ("compare no.h5", 2, "allowed: two files or more, the first is the reference"),
         ("--import gone.py show no.h5", 1, "--import 'gone.py': there is no such file"),
         ("show no.h5 --import gone.py", 1, "--import 'gone.py': there is no such file"),
