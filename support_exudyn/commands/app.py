@@ -9,9 +9,10 @@ the command line names it.
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from difflib import get_close_matches
 from typing import Annotated
 
-from cyclopts import Group, Parameter
+from cyclopts import CycloptsError, Group, Parameter
 
 from support_exudyn.commands.command_line import (
     Imports,
@@ -85,6 +86,9 @@ Exit codes:
 """
 
 
+NAMES = [name for commands in COMMANDS.values() for name in commands]
+
+
 def _versions() -> str:
     from support_exudyn.simulation.provenance import versions
 
@@ -110,7 +114,14 @@ app.register_install_completion_command(name="--install-completion", group="Comp
 def _launch(
     *words: Annotated[str, Parameter(show=False, allow_leading_hyphen=True)], imports: Imports = ()
 ) -> int | None:
-    """Carry out a command; its libraries are imported before it may be interrupted with an exception."""
+    """Carry out a command; its libraries are imported before it may be interrupted with an exception.
+
+    A mistyped command is refused here: the library would import all commands to list those that it shows.
+    """
+    if words and words[0] not in list(app):
+        near = get_close_matches(words[0], NAMES, 1)
+        guess = f'Did you mean "{near[0]}"? ' if near else ""
+        raise CycloptsError(msg=f'Unknown command "{words[0]}". {guess}Allowed: {", ".join(NAMES)}')
     command, bound, _ = app.parse_args(words)
     be_interruptible()
     import_modules(imports)

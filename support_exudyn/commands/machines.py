@@ -10,6 +10,7 @@ from cyclopts import Parameter
 from cyclopts.validators import Number
 
 from support_exudyn.commands.command_line import Json, answer, say
+from support_exudyn.commands.runs import FIGURES, save_figures
 from support_exudyn.files.machines import SHIPPED
 from support_exudyn.files.scenarios.scenario_file import read_machine_in, read_scenario
 from support_exudyn.files.scenarios.simple_scenario import simple_scenario
@@ -35,14 +36,14 @@ def check(
     machine: MachineFile,
     /,
     *,
-    out: Path | None = None,
+    out: Annotated[Path | None, FIGURES] = None,
     stroke_mm: Annotated[float | None, Parameter(validator=Number(gte=-FARTHEST, lte=FARTHEST))] = None,
     json: Json = False,
 ) -> None:
     """Print what is known of a machine, and draw it.
 
     Args:
-        out: Folder of the figure (next to the file, or here).
+        out: Folder of the figure (next to the file, or here), or its file (.png, .pdf, .svg).
         stroke_mm: By how much the actuators extend from the start on [mm] (what the file says).
     """
     from support_exudyn.machines.check import CheckTable, check_machine  # and numpy's linear algebra
@@ -61,7 +62,8 @@ def check(
         raise InputError(f"{machine}: {where}: {error}") from None
     folder = Path(machine).parent if Path(machine).suffix.lower() == ".toml" else Path()
     with style.look():
-        written = style.save(check_figure(report), out or folder, f"{_stem(machine)}_check")
+        name = f"{_stem(machine)}_check"
+        written = save_figures({name: check_figure(report)}, out, folder)[name]
     scenario, notes = _checked_scenario(machine, data, report)
     if scenario:
         look_at_laws(scenario)
@@ -123,11 +125,14 @@ def _checked_scenario(
     return scenario, [f"assumed of every pin: {CLEARANCE_MM:g} mm of clearance, a friction of {FRICTION:g}"]
 
 
-def stand(machine: MachineFile, /, *, figure: Path | None = None, json: Json = False) -> None:
+def stand(
+    machine: MachineFile, /, *, figure: Annotated[Path | None, FIGURES] = None, json: Json = False
+) -> None:
     """Print what a support must stand, and draw it. Its file has a section [strength].
 
     Args:
-        figure: Folder for a figure of the support force over height and canopy, and of the forces in pins.
+        figure: Folder, or file (.png, .pdf, .svg), of a figure of the support force over height and canopy,
+            and of the forces in pins.
     """
     from support_exudyn.machines.strength import stand as computed  # and scipy
     from support_exudyn.machines.strength.page import page
@@ -142,7 +147,8 @@ def stand(machine: MachineFile, /, *, figure: Path | None = None, json: Json = F
     figures: list[Path] = []
     if figure:
         with style.look():
-            figures = style.save(stand_figure(report), figure, f"{_stem(machine)}_stand")
+            name = f"{_stem(machine)}_stand"
+            figures = save_figures({name: stand_figure(report)}, figure, Path())[name]
     if json:
         answer({**report.data(), "figures": figures})
         return

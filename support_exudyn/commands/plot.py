@@ -12,15 +12,17 @@ from cyclopts.validators import Number
 
 from support_exudyn.commands.command_line import After, Json, Until, answer, say, warn
 from support_exudyn.commands.runs import (
+    FIGURES,
     by_name,
     file_name,
     files_and_channels,
+    is_figure,
     is_of_others,
     said_channels,
     said_window,
+    save_figures,
 )
 from support_exudyn.files.series.read import read_series
-from support_exudyn.files.whole_file import whole_file
 from support_exudyn.postprocessing.figures.journal import chosen_pin, clearance_joints
 from support_exudyn.postprocessing.figures.selection import matching
 from support_exudyn.simulation.result import Result
@@ -30,7 +32,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 FIRST = 8  # channels of a run without forces
-PICTURES = (".png", ".pdf", ".svg")  # endings of --out that name a file
 Share = Annotated[float, Parameter(validator=Number(gte=0.0, lte=1.0))]
 
 
@@ -57,7 +58,7 @@ def plot(
     until: Until = math.inf,
     phase: Share = 0.0,
     section: tuple[str, str] | None = None,
-    out: Path | None = None,
+    out: Annotated[Path | None, FIGURES] = None,
     json: Json = False,
 ) -> None:
     """Draw, write, and print the names of the files.
@@ -87,7 +88,6 @@ def plot(
     asked = {"orbit": orbit, "poincare": poincare or section, "spectrum": spectrum, "stability": stability}
     kinds = [kind for kind, is_asked in asked.items() if is_asked]
     view = DrawnPin(pin, (after, until), phase, section or ())
-    is_file = out is not None and out.suffix.lower() in PICTURES
     if difference and (len(runs) < 2 or curves):
         raise InputError(
             "--difference: needs a second run, and no curves of others; allowed: plot FIRST.h5 SECOND.h5"
@@ -101,20 +101,8 @@ def plot(
                 )
             drawings = _of_several(runs, curves, channels, view.ends, difference)
         else:
-            drawings = _of_one(*next(iter(runs.items())), kinds, channels, view, alone=is_file)
-        written: dict[str, list[Path]] = {}
-        for name, drawing in drawings.items():
-            if out is None or not is_file:
-                folder = out or files[0].with_name(f"{files[0].stem}_figures")
-                written[name] = style.save(drawing, folder, name)
-            elif len(drawings) > 1:
-                raise InputError(
-                    f"--out {out}: is one figure, and {len(drawings)} are drawn; allowed: a folder"
-                )
-            else:
-                with whole_file(out) as temporary:
-                    drawing.savefig(temporary, format=out.suffix[1:].lower())
-                written[name] = [out]
+            drawings = _of_one(*next(iter(runs.items())), kinds, channels, view, alone=is_figure(out))
+        written = save_figures(drawings, out, files[0].with_name(f"{files[0].stem}_figures"))
     if json:
         answer({"figures": written})
     else:

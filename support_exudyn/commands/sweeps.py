@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 from cyclopts import Parameter
 
 from support_exudyn.commands.command_line import Json, answer, at_most, say, shown_progress, warn, write_or_say
-from support_exudyn.commands.runs import file_name
+from support_exudyn.commands.runs import FIGURES, file_name, save_figures
 from support_exudyn.commands.tables import show_table
 from support_exudyn.postprocessing import sweep_summary, sweep_table
 from support_exudyn.postprocessing.figures.selection import matching
@@ -107,7 +107,7 @@ def chart(
     by: str | None = None,
     histogram: bool = False,
     tornado: bool = False,
-    out: Path | None = None,
+    out: Annotated[Path | None, FIGURES] = None,
 ) -> None:
     """Draw, write, and print the names of the files.
 
@@ -118,7 +118,7 @@ def chart(
         by: Something else that was varied, a curve for each of its values.
         histogram: Draw how Y is distributed, with percentiles.
         tornado: Draw by how much each varied field moves Y.
-        out: Folder of the figure (figures in the store).
+        out: Folder of the figure (figures in the store), or its file (.png, .pdf, .svg).
     """
     from support_exudyn.postprocessing.figures import style, sweep_chart, sweep_distribution
 
@@ -143,7 +143,7 @@ def chart(
             name = file_name(y, "over", x, f"by_{by}" if by else "")
         folder = _folder(store)
         style.named(drawing, folder.resolve().name)
-        for path in style.save(drawing, out or folder / "figures", name):
+        for path in save_figures({name: drawing}, out, folder / "figures")[name]:
             say(path)
 
 
