@@ -7,8 +7,7 @@ the command line names it.
 """
 
 import warnings
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from difflib import get_close_matches
 from typing import Annotated
 
@@ -29,13 +28,10 @@ from user_forces.values.texts import InputError
 COMMANDS = {  # by group: of every command its module and a line of what it does
     "Before a run": {
         "init": ("inputs", "write a commented set of files to start from: machine, scenarios, sweep"),
-        "check": (
-            "machines",
-            "draw a machine and report its mobility, dead centres, static forces, and doubts",
-        ),
+        "check": ("machines", "draw a machine; report mobility, dead centres, static forces, and doubts"),
         "stand": (
             "machines",
-            "what a support must stand: support force, yield, buckling, tipping, on one page",
+            "what a support must stand: support force, yield, buckling, tipping, on a page",
         ),
         "channels": ("inputs", "all channels of a scenario or a machine: names, units, meanings"),
         "schema": ("inputs", "all keys of scenario or machine files, as a table or a JSON Schema for editors"),
@@ -48,7 +44,7 @@ COMMANDS = {  # by group: of every command its module and a line of what it does
         "show": ("show", "tables of what a run or a sweep was and what came out of it"),
         "plot": (
             "plot",
-            "figures of runs: channels over time, journal orbit, Poincare section, force spectrum",
+            "figures of runs: channels, journal orbit, Poincare section, force spectrum",
         ),
         "report": ("outputs", "a page on runs: what was run, numbers with errors, live figures, a picture"),
         "render": ("outputs", "ray-traced frames and a movie of a run, without a display"),
@@ -61,7 +57,7 @@ COMMANDS = {  # by group: of every command its module and a line of what it does
     "Compare": {
         "compare": (
             "compare",
-            "by how much runs, measurements and other programs' results differ from a first",
+            "by how much runs, measurements and results of other programs differ",
         ),
         "baseline": ("baseline", "keep what scenarios come out at, and report what has changed since"),
     },
@@ -92,7 +88,7 @@ NAMES = [name for commands in COMMANDS.values() for name in commands]
 def _versions() -> str:
     from support_exudyn.simulation.provenance import versions
 
-    return "\n".join(f"{name} {number}" for name, number in versions().items())
+    return "\n".join(map(" ".join, versions().items()))
 
 
 app = new_app(
@@ -116,7 +112,8 @@ def _launch(
 ) -> int | None:
     """Carry out a command; its libraries are imported before it may be interrupted with an exception.
 
-    A mistyped command is refused here: the library would import all commands to list those that it shows.
+    A mistyped command is refused here: the library would import all commands to list those that it shows. An
+    unexpected error in a module of the user's own is an InputError.
     """
     if words and words[0] not in list(app):
         near = get_close_matches(words[0], NAMES, 1)
@@ -125,23 +122,17 @@ def _launch(
     command, bound, _ = app.parse_args(words)
     be_interruptible()
     import_modules(imports)
-    with _at_work(imports), warnings.catch_warnings():
-        warnings.showwarning = lambda message, *_: warn(f"warning: {message}")
-        code: int | None = command(*bound.args, **bound.kwargs)
+    try:
+        with warnings.catch_warnings():
+            warnings.showwarning = lambda message, *_: warn(f"warning: {message}")
+            code: int | None = command(*bound.args, **bound.kwargs)
+    except Exception as error:
+        if not imports or isinstance(error, (*mendable(), MemoryError)):
+            raise
+        raise InputError(f"{', '.join(f'--import {name}' for name in imports)}: {told(error)}") from error
     return code
 
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Do what the command line asks for. Returns the exit code."""
     return carry_out(app.meta, argv)
-
-
-@contextmanager
-def _at_work(names: Sequence[str]) -> Iterator[None]:
-    """While a command works with modules of the user's own, an unexpected error is an InputError."""
-    try:
-        yield
-    except Exception as error:
-        if not names or isinstance(error, (*mendable(), MemoryError)):
-            raise
-        raise InputError(f"{', '.join(f'--import {name}' for name in names)}: {told(error)}") from error

@@ -1,12 +1,12 @@
 """What all command lines share: kinds of options, printed lines, errors as a sentence and an exit code."""
 
-import json
 import math
 import os
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from difflib import get_close_matches
+from json import dumps
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -89,7 +89,15 @@ def import_modules(names: Sequence[str]) -> None:
 
 def answer(data: Mapping[str, Any]) -> None:
     """Print a JSON object; numbers that are none (not known, without end) as null."""
-    say(json.dumps(_finite(data), indent=1, allow_nan=False))
+    say(dumps(_finite(data), indent=1, allow_nan=False))
+
+
+def put(json: bool, data: Mapping[str, Any], *lines: object) -> None:
+    """Print a JSON object, see `answer`, or in place of it lines of text."""
+    if json:
+        answer(data)
+    else:
+        say("\n".join(map(str, lines)))
 
 
 def _finite(item: Any) -> Any:

@@ -47,7 +47,7 @@ def channels(
     """
     found = known_channels(file, *channels)
     if json:
-        answer({name: one._asdict() for name, one in found.items()})
+        answer({name: channel._asdict() for name, channel in found.items()})
     else:
         show_table(f"{file}: {len(found)} channels", HEADER, found.rows())
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 from cyclopts import Parameter
 from cyclopts.validators import Number
 
-from support_exudyn.commands.command_line import Json, answer, say
+from support_exudyn.commands.command_line import Json, put
 from support_exudyn.commands.runs import FIGURES, save_figures
 from support_exudyn.files.machines import SHIPPED
 from support_exudyn.files.scenarios.scenario_file import read_machine_in, read_scenario
@@ -20,6 +20,8 @@ from user_forces.values.value import InputError
 
 if TYPE_CHECKING:
     from support_exudyn.machines.check import CheckReport
+    from support_exudyn.scenario.pin_pressure import PressedPin
+    from support_exudyn.scenario.pin_stability import PinOutlook
     from support_exudyn.scenario.scenario import Scenario
 
 FARTHEST = 1e5  # [mm]
@@ -62,33 +64,32 @@ def check(
         raise InputError(f"{machine}: {where}: {error}") from None
     folder = Path(machine).parent if Path(machine).suffix.lower() == ".toml" else Path()
     with style.look():
-        name = f"{_stem(machine)}_check"
-        written = save_figures({name: check_figure(report)}, out, folder)[name]
+        drawn = save_figures({f"{_stem(machine)}_check": check_figure(report)}, out, folder)
+    written = [path for paths in drawn.values() for path in paths]
     scenario, notes = _checked_scenario(machine, data, report)
+    outlooks: list[PinOutlook] = []
+    pressed: list[PressedPin] = []
+    contacts: list[str] = []
     if scenario:
         look_at_laws(scenario)
-    outlooks = pin_outlooks(scenario) if scenario else []
-    if scenario and scenario.clearance_pins and not outlooks:
-        notes.append(f"whether its pins shake: {NOT_TOLD}")
-    pressed = statically_pressed(scenario) if scenario else []
-    contacts = joint_tables.contact_lines(scenario) if scenario else []
+        outlooks, pressed = pin_outlooks(scenario), statically_pressed(scenario)
+        contacts = joint_tables.contact_lines(scenario)
+        if scenario.clearance_pins and not outlooks:
+            notes.append(f"whether its pins shake: {NOT_TOLD}")
     report = replace(report, warnings=[*report.warnings, *(one.warning for one in pressed if one.warning)])
-    if json:
-        more = {
-            "pins_under_static_load": joint_tables.pressure_data(pressed),
-            "pin_stability": joint_tables.stability_data(outlooks),
-            "contacts": contacts,
-            "figures": written,
-        }
-        answer(report.data() | more)
-        return
     lines = [*report.lines()]
     tables = joint_tables.pressure_table(joint_tables.STATIC, pressed), joint_tables.stability_table(outlooks)
-    for title, header, rows in tables:
-        if rows:
-            lines += ["", *CheckTable(title, [name.lstrip(">") for name in header], rows).lines()]
-    for line in (*lines, *(f"  {one}" for one in (*notes, *contacts)), "", *written):
-        say(line)
+    for table in tables:
+        if table.rows:
+            heads = [name.lstrip(">") for name in table.header]
+            lines += ["", *CheckTable(table.title, heads, table.rows).lines()]
+    more = {
+        "pins_under_static_load": joint_tables.pressure_data(pressed),
+        "pin_stability": joint_tables.stability_data(outlooks),
+        "contacts": contacts,
+        "figures": written,
+    }
+    put(json, report.data() | more, *lines, *(f"  {note}" for note in (*notes, *contacts)), "", *written)
 
 
 def _stem(machine: str) -> str:
@@ -146,11 +147,7 @@ def stand(
         raise InputError(f"{machine}: {error}") from None
     figures: list[Path] = []
     if figure:
+        name = f"{_stem(machine)}_stand"
         with style.look():
-            name = f"{_stem(machine)}_stand"
             figures = save_figures({name: stand_figure(report)}, figure, Path())[name]
-    if json:
-        answer({**report.data(), "figures": figures})
-        return
-    for line in (*page(report), *figures):
-        say(line)
+    put(json, {**report.data(), "figures": figures}, *page(report), *figures)

@@ -1,14 +1,24 @@
-"""Commands that make something of a run: `report`, `render`, `view`, `measure`, `export`."""
+"""Commands that make files or pictures of a run: `report`, `render`, `view`, `measure`, `export`."""
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from cyclopts import Parameter
 from cyclopts.validators import Number
 
-from support_exudyn.commands.command_line import After, Json, Until, answer, at_most, say, shown_progress, warn
+from support_exudyn.commands.command_line import (
+    After,
+    Json,
+    Until,
+    answer,
+    at_most,
+    put,
+    say,
+    shown_progress,
+    warn,
+)
 from support_exudyn.commands.runs import by_name, files_and_channels
 from support_exudyn.files.whole_file import whole_file
 from support_exudyn.scene.contract import Progress
@@ -37,7 +47,7 @@ def report(run: str, /, *others: str, out: Path | None = None, json: Json = Fals
     path = path if path.suffix == ".html" else path / "report.html"
     with whole_file(path) as temporary:
         temporary.write_text(page, encoding="utf-8")
-    answer({"report": path}) if json else say(path)
+    put(json, {"report": path}, path)
 
 
 def _size(type_: object, tokens: Any) -> tuple[int, int]:
@@ -80,13 +90,21 @@ def render(
         pin: Whose force is shown, and journal first of all (the first clearance pin).
         still: Time of a single picture [s]; no movie.
     """
+    from PIL import Image
+
     from support_exudyn.postprocessing import render as rendering
 
     if still is not None and (after is not None or until is not None):
         raise InputError("--still: is one picture; allowed: without --after and --until")
     result = Result.load(run)
     if still is not None:
-        _draw_still(result, still, out or run.with_name(f"{run.stem}_{still:g}s.png"), size, pin, json)
+        path = out or run.with_name(f"{run.stem}_{still:g}s.png")
+        if path.suffix.lower() != ".png":
+            raise InputError(f"--out {path}: allowed with --still: a name that ends in .png")
+        picture = rendering.still(result, still, size=size or rendering.SIZE, pin=pin)
+        with whole_file(path) as temporary:
+            Image.fromarray(picture).save(temporary, format="PNG")
+        put(json, {"frames": [path], "movie": None}, path)
         return
     folder = out or run.with_name(f"{run.stem}_frames")
     with shown_progress(f"rendering {run.name}") as progress:
@@ -102,28 +120,10 @@ def render(
             pin=pin,
             progress=progress,
         )
-    if json:
-        answer({"frames": written.frames, "movie": written.movie})
-        return
-    say(f"{_counted(len(written.frames), 'frame')} in {folder}")
+    lines = [f"{_counted(len(written.frames), 'frame')} in {folder}"]
     if written.movie is not None:
-        say(f"{written.movie} ({written.movie.stat().st_size / 1e6:.3g} MB)")
-
-
-def _draw_still(
-    result: Result, time: float, path: Path, size: tuple[int, int] | None, pin: str | None, json: bool
-) -> None:
-    """Draw a single picture at a time [s]."""
-    from PIL import Image
-
-    from support_exudyn.postprocessing import render as rendering
-
-    if path.suffix.lower() != ".png":
-        raise InputError(f"--out {path}: allowed with --still: a name that ends in .png")
-    picture = rendering.still(result, time, size=size or rendering.SIZE, pin=pin)
-    with whole_file(path) as temporary:
-        Image.fromarray(picture).save(temporary, format="PNG")
-    answer({"frames": [path], "movie": None}) if json else say(path)
+        lines.append(f"{written.movie} ({written.movie.stat().st_size / 1e6:.3g} MB)")
+    put(json, {"frames": written.frames, "movie": written.movie}, *lines)
 
 
 def view(run: Path, /, *, solution: Path | None = None, every: Every = None) -> None:
@@ -161,12 +161,12 @@ def measure(
     measured = stations.measure(result, station)
     out = out or run.with_name(f"{run.stem}_measured.csv")
     stations.write_measured(measured, out)
-    _warn_of(refused)
-    sizes = {name: one.time.size for name, one in measured.items()}
-    if json:
-        answer({"written": out, "samples": sizes, "left_out": _reasons(refused)})
-    else:
-        say(f"{out}: {_counted(len(measured), 'instrument')}, {max(sizes.values())} samples")
+    sizes = {name: reading.time.size for name, reading in measured.items()}
+    put(
+        json,
+        {"written": out, "samples": sizes, "left_out": _left_out(refused)},
+        f"{out}: {_counted(len(measured), 'instrument')}, {max(sizes.values())} samples",
+    )
 
 
 def export(
@@ -222,29 +222,26 @@ def export(
     for kind in dict.fromkeys(kinds or USUAL):
         try:
             with shown_progress(kind) as progress:
-                written[kind] = work[kind](progress)
+                files = written[kind] = work[kind](progress)
         except InputError as error:
             if kinds:
                 raise
             refused[kind] = error
             continue
         if not json:
-            size = sum(file.stat().st_size for file in written[kind])
-            say(f"{kind}: {written[kind][0]} ({_counted(len(written[kind]), 'file')}, {size / 1e6:.3g} MB)")
+            size = sum(file.stat().st_size for file in files)
+            say(f"{kind}: {files[0]} ({_counted(len(files), 'file')}, {size / 1e6:.3g} MB)")
     if not written:
         raise refused[USUAL[0]]
-    _warn_of(refused)
+    left_out = _left_out(refused)
     if json:
-        answer({"written": written, "left_out": _reasons(refused)})
+        answer({"written": written, "left_out": left_out})
 
 
-def _warn_of(refused: Mapping[str, InputError]) -> None:
-    """Print what is left out, and why."""
+def _left_out(refused: dict[str, InputError]) -> dict[str, str]:
+    """What is left out, and why; it is also printed as a warning."""
     for name, reason in refused.items():
         warn(f"{name}: left out: {reason}")
-
-
-def _reasons(refused: Mapping[str, InputError]) -> dict[str, str]:
     return {name: str(reason) for name, reason in refused.items()}
 
 

@@ -3,24 +3,24 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 from cyclopts import Parameter
 from cyclopts.validators import Number
 
-from support_exudyn.commands.command_line import After, Json, Until, answer, say, warn
+from support_exudyn.commands.command_line import After, Json, Until, put, warn
 from support_exudyn.commands.runs import (
     FIGURES,
     by_name,
-    file_name,
     files_and_channels,
+    in_name,
     is_figure,
     is_of_others,
-    said_channels,
-    said_window,
+    joined,
     save_figures,
+    window_in_name,
 )
 from support_exudyn.files.series.read import read_series
 from support_exudyn.postprocessing.figures.journal import chosen_pin, clearance_joints
@@ -36,8 +36,9 @@ Share = Annotated[float, Parameter(validator=Number(gte=0.0, lte=1.0))]
 
 
 class DrawnPin(NamedTuple):
-    """What is drawn of a pin: its name (None: the first), times [s], and phase and channels of a section."""
+    """Kinds of figures of a pin, its name (None: the first), times [s], phase and channels of a section."""
 
+    kinds: list[str]
     pin: str | None
     ends: tuple[float, float]
     phase: float
@@ -71,15 +72,15 @@ def plot(
         orbit: Draw the path of the journal of a clearance pin in its bore.
         poincare: Draw a section once in every period of the drive, or by impacts.
         spectrum: Draw the spectrum of the force in a pin.
-        stability: Draw where pins shake as they slide, over stroke and friction.
+        stability: Draw where friction makes pins vibrate as they slide, over stroke and friction.
         pin: Pin of orbit, section, spectrum and stability (the first with clearance).
-        phase: Share of the period, 0 to 1, at which a section looks (0).
+        phase: Share of the period, 0 to 1, at which a section is taken (0).
         section: Two channels of a section once in every period.
         out: Folder of the figures (RUN_figures next to the run), or file of the only figure (.png, .pdf, .svg).
     """
     from support_exudyn.postprocessing.figures import style
 
-    files, channels = files_and_channels([run, *others])
+    files, patterns = files_and_channels([run, *others])
     names = by_name(files)
     curves = {name: path for name, path in names.items() if is_of_others(path)}
     runs = {name: Result.load(path) for name, path in names.items() if name not in curves}
@@ -87,77 +88,72 @@ def plot(
         raise InputError(f"{run}: is no run; allowed: with a run before it, plot RUN {run}")
     asked = {"orbit": orbit, "poincare": poincare or section, "spectrum": spectrum, "stability": stability}
     kinds = [kind for kind, is_asked in asked.items() if is_asked]
-    view = DrawnPin(pin, (after, until), phase, section or ())
+    view = DrawnPin(kinds, pin, (after, until), phase, section or ())
     if difference and (len(runs) < 2 or curves):
         raise InputError(
             "--difference: needs a second run, and no curves of others; allowed: plot FIRST.h5 SECOND.h5"
         )
+    if len(names) > 1 and (kinds or pin):
+        raise InputError(
+            "--orbit, --poincare, --spectrum, --stability, --section, --pin: are of one run, and "
+            f"{len(names)} are given; allowed with several: channels"
+        )
     with style.look():
         if len(names) > 1:
-            if kinds or pin:
-                raise InputError(
-                    "--orbit, --poincare, --spectrum, --stability, --section, --pin: are of one run, and "
-                    f"{len(names)} are given; allowed with several: channels"
-                )
-            drawings = _of_several(runs, curves, channels, view.ends, difference)
+            several = [*runs, *curves]
+            called = "_less_".join(several[::-1]) if difference else "_and_".join(several)
+            drawn = {in_name(patterns): _of_several(runs, curves, patterns, view.ends, difference)}
         else:
-            drawings = _of_one(*next(iter(runs.items())), kinds, channels, view, alone=is_figure(out))
+            (called,) = runs
+            found = _of_one(runs[called], patterns, view, alone=is_figure(out))
+            drawn = {what: style.named(drawing, called) for what, drawing in found}
+        window = window_in_name(after, until)
+        drawings = {joined(called, what, window): drawing for what, drawing in drawn.items()}
         written = save_figures(drawings, out, files[0].with_name(f"{files[0].stem}_figures"))
-    if json:
-        answer({"figures": written})
-    else:
-        say("\n".join(str(path) for paths in written.values() for path in paths))
+    put(json, {"figures": written}, *(path for paths in written.values() for path in paths))
 
 
 def _of_several(
     runs: Mapping[str, Result],
     curves: Mapping[str, Path],
-    channels: Sequence[str],
+    patterns: Sequence[str],
     ends: tuple[float, float],
     difference: bool,
-) -> dict[str, Figure]:
-    """The figure, by its name, of channels of several files one upon another, or less those of the first."""
+) -> Figure:
+    """Channels of several files one upon another, or less those of the first."""
     from support_exudyn.postprocessing.figures import overlay
 
     series = {name: read_series(path) for name, path in curves.items()}
     first = next(iter(runs.values()))
     in_files = [name for name in first.channels if any(name in one.series for one in series.values())]
-    chosen = channels or in_files or _telling(first)
-    names = [*runs, *series]
-    joined = "_less_".join(names[::-1]) if difference else "_and_".join(names)
-    name = file_name(joined, said_channels(channels) if channels else "overview", said_window(*ends))
+    chosen = patterns or in_files or _usual(first)
     if difference:
-        return {name: overlay.difference(runs, chosen, *ends)}
-    return {name: overlay.overlay(runs, chosen, *ends, series)}
+        return overlay.difference(runs, chosen, *ends)
+    return overlay.overlay(runs, chosen, *ends, series)
 
 
 def _of_one(
-    called: str, result: Result, kinds: list[str], channels: list[str], view: DrawnPin, alone: bool
-) -> dict[str, Figure]:
-    """Figures of a run by their names: channels over time, and the kinds of figures of a pin.
+    result: Result, patterns: Sequence[str], view: DrawnPin, alone: bool
+) -> Iterator[tuple[str, Figure]]:
+    """Figures of a run and what they show: channels over time, and the kinds of figures of a pin.
 
     If nothing is asked for, an overview, and unless that is to stand alone all that can be drawn of the pin.
     """
-    from support_exudyn.postprocessing.figures import channels as over_channels
-    from support_exudyn.postprocessing.figures.style import named
+    from support_exudyn.postprocessing.figures import channels
 
-    window = said_window(*view.ends)
-    found: dict[str, Figure] = {}
-    if channels or not (kinds or view.pin):
-        what = said_channels(channels) if channels else "overview"
-        drawing = over_channels.over_time(result, channels or _telling(result), *view.ends)
-        found[file_name(called, what, window)] = named(drawing, called)
-    is_optional = not kinds and (view.pin or not (channels or alone)) and bool(clearance_joints(result))
-    for kind in ("orbit", "poincare", "spectrum") if is_optional else kinds:
+    if patterns or not (view.kinds or view.pin):
+        yield in_name(patterns), channels.over_time(result, patterns or _usual(result), *view.ends)
+    all_of_pin = not view.kinds and bool(view.pin or not (patterns or alone))
+    is_optional = all_of_pin and bool(clearance_joints(result))
+    for kind in ("orbit", "poincare", "spectrum") if is_optional else view.kinds:
         try:
-            what, drawing = _of_pin(kind, result, view)
+            drawn = _of_pin(kind, result, view)
         except InputError as error:  # noqa: PERF203
             if not is_optional:
                 raise
             warn(f"{kind}: left out: {error}")
         else:
-            found[file_name(called, what, window)] = named(drawing, called)
-    return found
+            yield drawn
 
 
 def _of_pin(kind: str, result: Result, view: DrawnPin) -> tuple[str, Figure]:
@@ -165,11 +161,11 @@ def _of_pin(kind: str, result: Result, view: DrawnPin) -> tuple[str, Figure]:
     from support_exudyn.postprocessing.figures import orbit, poincare, spectrum, stability_map
 
     if kind == "poincare":
-        pin = next((one for one in clearance_joints(result) if view.pin in (None, one)), None)
-        phase = f"phase_{view.phase:g}" if view.phase else ""
+        pin = next((joint for joint in clearance_joints(result) if view.pin in (None, joint)), None)
         pair = matching(result.channels, view.section)
         drawing = poincare.poincare(result, pin, *view.ends, phase=view.phase, channels=pair)
-        return file_name(kind, pin or "", *view.section, phase), drawing
+        phase = f"phase_{view.phase:g}" if view.phase else ""
+        return joined(kind, pin or "", *view.section, phase), drawing
     if kind == "stability":
         pins = () if view.pin is None else (chosen_pin(result, view.pin, with_clearance=False),)
         return kind, stability_map.stability_map(result.scenario, pins)
@@ -178,18 +174,18 @@ def _of_pin(kind: str, result: Result, view: DrawnPin) -> tuple[str, Figure]:
     return f"{kind}_{pin}", draw(result, pin, *view.ends)
 
 
-def _telling(result: Result) -> list[str]:
+def _usual(result: Result) -> list[str]:
     """Channels that are drawn unless some are named: forces and motion."""
-    with_clearance, linkage = clearance_joints(result), result.scenario.linkage
-    names = [f"pin.{with_clearance[0]}.{what}" for what in ("force", "depth")] if with_clearance else []
+    scenario, joints = result.scenario, clearance_joints(result)
+    names = [f"pin.{joints[0]}.{what}" for what in ("force", "depth")] if joints else []
     names += [
         f"guide.{name}.{what}"
-        for name, guide in result.scenario.guides.items()
+        for name, guide in scenario.guides.items()
         if guide.contacts()
         for what in ("force", "gap_upper", "gap_lower")
     ]
-    names = names or [f"pin.{pin}.force" for pin in linkage.pins]
-    names += [f"{point}.{axis}" for point in linkage.points for axis in "xy"]
-    names += [f"{actuator}.force" for actuator in linkage.actuators]
+    names = names or [f"pin.{pin}.force" for pin in scenario.linkage.pins]
+    names += [f"{point}.{axis}" for point in scenario.linkage.points for axis in "xy"]
+    names += [f"{actuator}.force" for actuator in scenario.linkage.actuators]
     known = [name for name in names if name in result.channels]
     return known or [name for name in result.channels if name != "time"][:FIRST]

@@ -7,13 +7,12 @@ import numpy as np
 from cyclopts import Parameter
 
 from support_exudyn.commands.command_line import Json, answer, say, shown_progress, warn
-from support_exudyn.commands.show import show_run
-from support_exudyn.commands.tables import WHOLE, facts, in_short
+from support_exudyn.commands.tables import show_tables
 from support_exudyn.files import read_scenario_file
 from support_exudyn.files.whole_file import check_may_be_replaced, named, real_path
 from support_exudyn.machines.check.joint_warnings import guide_warnings, joint_warnings
 from support_exudyn.mechanics.body_motion import BodyMotion
-from support_exudyn.postprocessing.summary import unmet
+from support_exudyn.postprocessing.summary import facts, in_short, run_tables, unmet
 from support_exudyn.scenario.scenario_data import ACCURACIES, LARGEST_GOAL, SMALLEST_GOAL
 from support_exudyn.simulation.result import Result
 from support_exudyn.simulation.simulate import simulate
@@ -70,17 +69,16 @@ def run(
     warnings = [*scenario_file.warnings, *joint_warnings_of(result)]
     if json:
         impacts = {pin: len(onsets) for pin, onsets in result.onsets.items()}
-        found = {"run": out, **facts(result, WHOLE), "impacts": impacts, "warnings": warnings}
-        answer(found | ({} if solution is None else {"solution": solution}))
+        written = {"run": out} | ({} if solution is None else {"solution": solution})
+        answer({**written, **facts(result), "impacts": impacts, "warnings": warnings})
     else:
         if all:
-            show_run(result)
+            show_tables(run_tables(result))
+            lines = [f"assumed: {words}" for words in scenario_file.assumed]
         else:
-            for name, words in in_short(result):
-                say(f"{name}: {words}")
-        for sentence in scenario_file.assumed if all else ():
-            say(f"assumed: {sentence}")
-        say(f"saved: {out}; all numbers: --all, or support-exudyn show {out}")
+            lines = [f"{name}: {words}" for name, words in in_short(result)]
+        for line in (*lines, f"saved: {out}; all numbers: --all, or support-exudyn show {out}"):
+            say(line)
         for warning in warnings:
             warn(f"warning: {warning}")
     if result.goal is not None and not result.met:

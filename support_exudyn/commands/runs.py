@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -69,8 +70,8 @@ def files_and_channels(words: Sequence[str]) -> tuple[list[Path], list[str]]:
         n == 0 or Path(word).is_file() or (word.lower().endswith(ENDINGS) and not set(word) & set("*?"))
         for n, word in enumerate(words)
     ]
-    pairs = list(zip(words, are_files, strict=True))
-    return [Path(word) for word, is_file in pairs if is_file], [word for word, is_file in pairs if not is_file]
+    files = [Path(word) for word, is_file in zip(words, are_files, strict=True) if is_file]
+    return files, [word for word, is_file in zip(words, are_files, strict=True) if not is_file]
 
 
 def is_of_others(path: Path) -> bool:
@@ -97,21 +98,22 @@ def by_name(paths: Sequence[Path]) -> dict[str, Path]:
     return found
 
 
-def file_name(*parts: str) -> str:
-    """A file's name of what a figure shows; patterns of channels without their stars."""
+def joined(*parts: str) -> str:
+    """The name of a figure's file: what it shows, without characters that file systems refuse."""
     return "_".join(filter(None, (NO_NAME.sub("_", part).strip("_.") for part in parts)))
 
 
-def said_channels(patterns: Sequence[str]) -> str:
-    """Channels as a part of a file's name."""
+def in_name(patterns: Sequence[str]) -> str:
+    """Channels as a part of a file's name, patterns without their stars; "overview" if there are none."""
+    if not patterns:
+        return "overview"
     words = [pattern.replace("*", "").replace("?", "").replace("..", ".").strip(".") for pattern in patterns]
     text = "_".join(filter(None, words)) or "channels"
     return text if len(text) <= LONGEST else f"{text[:LONGEST].rstrip('_.')}_and_others"
 
 
-def said_window(after: float, until: float) -> str:
+def window_in_name(after: float, until: float) -> str:
     """A window [s] as a part of a file's name; empty for the whole run."""
-    begins, ends = after > 0.0, until < float("inf")
-    if begins and ends:
-        return f"{after:g}_to_{until:g}_s"
-    return f"after_{after:g}_s" if begins else f"until_{until:g}_s" if ends else ""
+    if after > 0.0:
+        return f"{after:g}_to_{until:g}_s" if until < math.inf else f"after_{after:g}_s"
+    return f"until_{until:g}_s" if until < math.inf else ""

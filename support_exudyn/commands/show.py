@@ -4,20 +4,13 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from support_exudyn.commands.command_line import After, Json, Until, answer, say
-from support_exudyn.commands.tables import WHOLE, facts, show_impacts, show_numbers, show_table
-from support_exudyn.files.own_modules import with_known_laws
-from support_exudyn.postprocessing import joint_tables
-from support_exudyn.postprocessing import summary as summary
-from support_exudyn.postprocessing.figures import selection
+from support_exudyn.commands.command_line import After, Json, Until, answer
+from support_exudyn.commands.tables import show_table, show_tables
+from support_exudyn.postprocessing import joint_tables, summary
 from support_exudyn.postprocessing.figures.selection import matching
-from support_exudyn.postprocessing.figures.units import said
-from support_exudyn.scenario.pin_stability import PinOutlook, pin_outlooks
+from support_exudyn.postprocessing.shown_numbers import numbers
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
-
-NO_ERRORS = "no accuracy was asked"
-Ends = tuple[float, float]  # times [s]
 
 
 def show(
@@ -26,8 +19,8 @@ def show(
     *channels: str,
     impacts: bool = False,
     all: bool = False,  # noqa: A002, the option's name
-    after: After = WHOLE[0],
-    until: Until = WHOLE[1],
+    after: After = summary.WHOLE[0],
+    until: Until = summary.WHOLE[1],
     json: Json = False,
 ) -> None:
     """Print the tables of a run or of a sweep.
@@ -48,86 +41,43 @@ def show(
     result, ends = Result.load(run), (after, until)
     if impacts and not result.onsets:
         raise InputError(f"{run}: --impacts: has no clearance joint; allowed: a run that has some")
+    known = numbers(result, *ends) if channels else {}
+    names = matching([*result.channels, *known], channels, "channel or number")
+    asked = [name for name in names if name in result.channels]
     if json:
-        answer({"run": run} | _data(result, channels, ends))
+        shown = asked if channels else [name for name in result.channels if name != "time"]
+        answer({"run": run} | _data(result, shown, ends))
         return
     if impacts:
-        show_impacts(f"impacts, {selection.said(result, *ends)}", result, None, ends)
+        show_table(*summary.impacts_table("impacts", result, None, ends))
     if channels:
-        names, numbers = _asked(result, channels, ends)
-        if numbers:
-            show_numbers("numbers", NO_ERRORS, result, ends, only=numbers)
-        _show_channels(result, names, ends)
+        if only := [name for name in names if name in known]:
+            show_table(*summary.numbers_table(result, ends, only))
+        show_table(*summary.channels_table(result, asked, ends))
     elif not impacts:
-        show_run(result, ends, all)
+        show_tables(summary.run_tables(result, ends, all))
 
 
-def show_run(result: Result, ends: Ends = WHOLE, every: bool = False) -> None:
-    """Print the tables of a run between two times [s]; every: all channels, not only the telling ones."""
-    show_table("what was run", (), summary.what_was_run(result))
-    show_table("how", (), summary.how(result))
-    show_numbers("what came out", NO_ERRORS, result, ends)
-    show_table(*joint_tables.leg_table(result, *ends))
-    pressed = joint_tables.hardest_pressed(result)
-    show_table(*joint_tables.pressure_table(joint_tables.LARGEST, pressed))
-    for one in (pin for pin in pressed if pin.warning):
-        say(f"warning: {one.warning}\n")
-    show_table(*joint_tables.stability_table(_outlooks(result)))
-    more = any(len(onsets) > summary.IMPACTS for onsets in result.onsets.values())
-    title = "first impacts" + (" (all: show RUN --impacts)" if more else "")
-    show_impacts(title, result, summary.IMPACTS, WHOLE)
-    telling = [name for name in result.channels if name != "time"] if every else summary.telling(result)
-    _show_channels(result, telling, ends, len(result.channels) - 1 - len(telling))
-
-
-def _show_channels(result: Result, names: Sequence[str], ends: Ends, rest: int = 0) -> None:
-    """Print the table of some channels; rest: how many more there are."""
-    steps = "every step" if result.statistics else f"records every {said(result.scenario.recorded_every, 's')}"
-    more = f" ({rest} more: --all)" if rest else ""
-    title = f"channels from {steps}, {selection.said(result, *ends)}{more}"
-    show_table(
-        title,
-        ("channel", "unit", ">min", ">mean", ">max", "meaning"),
-        summary.of_channels(result, names, *ends),
-    )
-
-
-def _data(result: Result, channels: Sequence[str], ends: Ends) -> dict[str, Any]:
-    """What scripts read, in SI: every number with its error, and all channels unless some are asked for."""
-    names = [name for name in result.channels if name != "time"]
-    if channels:
-        names, _ = _asked(result, channels, ends)
+def _data(result: Result, channels: Sequence[str], ends: tuple[float, float]) -> dict[str, Any]:
+    """What scripts read, in SI: every number with its error, and these channels."""
+    impacts = {
+        pin: [
+            {
+                "time_s": onset.time,
+                "speed_m_per_s": onset.speed,
+                "parting_time_s": onset.separation_time,
+                "force_at_records_N": summary.force_of_impact(result, pin, n),
+            }
+            for n, onset in enumerate(onsets)
+        ]
+        for pin, onsets in result.onsets.items()
+    }
     return {
         "scenario": result.scenario.to_data(),
-        **facts(result, ends),
+        **summary.facts(result, ends),
         "provenance": dict(result.provenance),
-        "impacts": {
-            pin: [
-                {
-                    "time_s": onset.time,
-                    "speed_m_per_s": onset.speed,
-                    "parting_time_s": onset.separation_time,
-                    "force_at_records_N": summary.force_of_impact(result, pin, n),
-                }
-                for n, onset in enumerate(onsets)
-            ]
-            for pin, onsets in result.onsets.items()
-        },
-        "oil_events": {
-            name: [event._asdict() for event in events] for name, events in result.oil_events.items()
-        },
-        "pin_stability": joint_tables.stability_data(_outlooks(result)),
-        "channels": {name: summary.extent(result, name, *ends) for name in names},
+        "impacts": impacts,
+        "oil_events": {name: [event._asdict() for event in found] for name, found in result.oil_events.items()},
+        "pin_stability": joint_tables.stability_data(summary.outlooks(result)),
+        "channels": {name: summary.extent(result, name, *ends) for name in channels},
     }
-
-
-def _outlooks(result: Result) -> list[PinOutlook]:
-    """Whether the clearance pins of a run shake, by their postures alone."""
-    return pin_outlooks(result.scenario, pins=tuple(with_known_laws(result.scenario.clearance_pins)))
-
-
-def _asked(result: Result, words: Sequence[str], ends: Ends) -> tuple[list[str], list[str]]:
-    """The channels and the numbers that are asked for by names or patterns."""
-    numbers = summary.numbers(result, *ends)
-    found = matching([*result.channels, *numbers], words, "channel or number")
-    return [name for name in found if name in result.channels], [name for name in found if name in numbers]

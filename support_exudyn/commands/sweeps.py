@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 from cyclopts import Parameter
 
 from support_exudyn.commands.command_line import Json, answer, at_most, say, shown_progress, warn, write_or_say
-from support_exudyn.commands.runs import FIGURES, file_name, save_figures
+from support_exudyn.commands.runs import FIGURES, joined, save_figures
 from support_exudyn.commands.tables import show_table
 from support_exudyn.postprocessing import sweep_summary, sweep_table
 from support_exudyn.postprocessing.figures.selection import matching
@@ -130,9 +130,9 @@ def chart(
     *before, y = names or [_only_number(list(runs.numbers))]
     with style.look():
         if tornado:
-            drawing, name = sweep_distribution.tornado(runs.table, y), file_name(y, "tornado")
+            drawing, name = sweep_distribution.tornado(runs.table, y), joined(y, "tornado")
         elif histogram or (not before and is_sampled(runs.table)):
-            drawing, name = sweep_distribution.histogram(runs.table, y), file_name(y, "histogram")
+            drawing, name = sweep_distribution.histogram(runs.table, y), joined(y, "histogram")
         elif (x := before[0] if before else runs.usual_input) is None:
             raise InputError(
                 f"{y}: over which field? allowed: chart STORE X Y with X one of {', '.join(runs.varied)}; or "
@@ -140,11 +140,10 @@ def chart(
             )
         else:
             drawing = sweep_chart.sweep_chart(runs.table, x, y, by)
-            name = file_name(y, "over", x, f"by_{by}" if by else "")
-        folder = _folder(store)
+            name = joined(y, "over", x, f"by_{by}" if by else "")
+        folder = store if store.is_dir() else store.parent
         style.named(drawing, folder.resolve().name)
-        for path in save_figures({name: drawing}, out, folder / "figures")[name]:
-            say(path)
+        say("\n".join(map(str, save_figures({name: drawing}, out, folder / "figures")[name])))
 
 
 def _only_number(known: Sequence[str]) -> str:
@@ -152,10 +151,6 @@ def _only_number(known: Sequence[str]) -> str:
     if len(known) != 1:
         raise InputError(f"Y: which number? allowed: {', '.join(known) or 'none was recorded'}")
     return known[0]
-
-
-def _folder(store: Path) -> Path:
-    return store if store.is_dir() else store.parent
 
 
 def table(
@@ -205,5 +200,6 @@ def show_sweep(store: Path, words: Sequence[str], every: bool, json: bool) -> No
     header = ("number", "input", ">correlation", ">interval", "remark")
     show_table(title, header, sweep_summary.what_it_follows(runs, chosen))
     if chosen:
-        folder, number = _folder(store), next(name for name, column in names.items() if column == chosen[0])
+        folder = store if store.is_dir() else store.parent
+        number = next(name for name, column in names.items() if column == chosen[0])
         say(f"next: support-exudyn chart {folder} {number}, or table {folder} --format md")

@@ -1,11 +1,12 @@
-"""The examples: each is run for its picture, and told with its text."""
+"""The gallery: each example is run for its picture, which stands with its text and code."""
 
 import ast
 import base64
+import json
 import subprocess
 import sys
-from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
+from itertools import repeat
 from pathlib import Path
 from typing import Any
 
@@ -25,24 +26,22 @@ def scripts(examples: Path) -> list[Path]:
 
 
 def gallery_page(examples: Path, pictures: Path, workers: int = 2) -> str:
-    """Run the examples, and tell of them on a page of Markdown.
+    """Run the examples, and show them on a page of Markdown.
 
     Arguments:
         examples: folder of the scripts; each writes a picture with its own name.
-        pictures: folder for the pictures, beside the page.
+        pictures: folder for the pictures, next to the page.
         workers: so many scripts at a time.
 
     Raises InputError that names the script if one fails or draws nothing.
     """
     pictures.mkdir(parents=True, exist_ok=True)
-
-    def told(script: Path) -> str:
-        run_example(script, pictures)
-        return "\n\n".join(_told(script, f"{pictures.name}/{script.stem}.png"))
-
+    found = scripts(examples)
     with ThreadPoolExecutor(workers) as pool:
-        parts = list(pool.map(told, scripts(examples)))
-    return "\n\n".join([TOP, *parts]) + "\n"
+        list(pool.map(run_example, found, repeat(pictures)))
+    return (
+        "\n\n".join([TOP, *(_section(script, f"{pictures.name}/{script.stem}.png") for script in found)]) + "\n"
+    )
 
 
 def run_example(script: Path, folder: Path) -> None:
@@ -77,7 +76,7 @@ def _run_notebook(script: Path, folder: Path, picture: Path) -> None:
             notebook,
             timeout=300,
             resources={"metadata": {"path": str(folder)}},
-            extra_arguments=["--IPKernelApp.log_level=40"],  # of its warnings none is of the notebook
+            extra_arguments=["--IPKernelApp.log_level=40"],  # its warnings are not about the notebook
         ).execute()
     except CellExecutionError as error:
         raise InputError(f"{script.name}: {error}; allowed: a notebook whose cells run") from error
@@ -87,20 +86,16 @@ def _run_notebook(script: Path, folder: Path, picture: Path) -> None:
                 picture.write_bytes(base64.b64decode(data))
 
 
-def _told(script: Path, picture: str) -> Iterator[str]:
-    """Title, text, picture and code of an example."""
+def _section(script: Path, picture: str) -> str:
+    """Title, text, picture and code of an example, Markdown."""
+    text = script.read_text(encoding="utf-8")
     if script.suffix == ".ipynb":
-        import json
-
-        cells: list[dict[str, Any]] = json.loads(script.read_text(encoding="utf-8"))["cells"]
-        texts = ["".join(cell["source"]) for cell in cells if cell["cell_type"] == "markdown"]
-        title, _, rest = texts[0].removeprefix("# ").partition("\n")
+        cells: list[dict[str, Any]] = json.loads(text)["cells"]
+        first = next("".join(cell["source"]) for cell in cells if cell["cell_type"] == "markdown")
+        title, _, rest = first.removeprefix("# ").partition("\n")
         code = "\n\n".join("".join(cell["source"]) for cell in cells if cell["cell_type"] == "code")
     else:
-        text = script.read_text(encoding="utf-8")
         title, _, rest = (ast.get_docstring(ast.parse(text)) or "").partition("\n")
         code = text.partition('"""\n\n')[2]
-    yield f"## {title}"
-    yield rest.strip()
-    yield f"![{title}]({picture})"
-    yield f"```python\n# {script.name}\n{code.strip()}\n```"
+    code = f"```python\n# {script.name}\n{code.strip()}\n```"
+    return "\n\n".join([f"## {title}", rest.strip(), f"![{title}]({picture})", code])

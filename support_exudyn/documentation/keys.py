@@ -1,13 +1,23 @@
-"""The keys of files as pages, from their JSON Schemas."""
+"""The keys of files, from their JSON Schemas: as pages, and as tables for terminals."""
 
 import re
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Iterator, Mapping
+from typing import Any, NamedTuple
 
 Schema = Mapping[str, Any]
 LIMITS = {"exclusiveMinimum": ">", "minimum": ">=", "exclusiveMaximum": "<", "maximum": "<="}
+LINKED = re.compile(r"(?<!\\)\[([^]]*)\]\(#[^)]*\)")  # a link of Markdown to a place of the page
 LONGEST = 30  # letters of a default in a column of a terminal
 TOP = "Where a key has several forms, each with a unit of its own, range and unit are those of the first."
+
+
+class KeyRow(NamedTuple):
+    """Keys of a quantity, each with its unit, what they take, their default and their meaning, as Markdown."""
+
+    keys: list[str]
+    takes: str
+    default: str
+    meaning: str
 
 
 def keys_page(title: str, schema: Schema) -> str:
@@ -17,40 +27,44 @@ def keys_page(title: str, schema: Schema) -> str:
         title: of the page.
         schema: a JSON Schema, as `scenario_schema` and `machine_schema` give it.
     """
-    return _KeysPage(schema.get("$defs", {})).text(title, schema)
+    found = _Keys(schema.get("$defs", {}))
+    parts = [f"# {title}", schema.get("description", ""), TOP]
+    for name, (description, rows) in found.tables(schema).items():
+        parts += [f"## {name}", description] if name else [description]
+        if rows:
+            lines = ["| key | takes | default | meaning |", "|---|---|---|---|"]
+            for row in rows:
+                cells = (", ".join(f"`{key}`" for key in row.keys), *row[1:])
+                escaped = (cell.replace("|", "\\|").replace("\n", " ") for cell in cells)
+                lines.append(f"| {' | '.join(escaped)} |")
+            parts.append("\n".join(lines))
+    return "\n\n".join(part for part in parts if part) + "\n"
 
 
 def key_tables(schema: Schema) -> dict[str, list[tuple[str, str, str]]]:
-    """The tables of that page for terminals: by the name of their class, of the file itself empty.
+    """The same tables for terminals: by the name of their class, of the file itself empty.
 
     A row is a key (the others of one quantity behind what it means), its default, and what it takes and means.
 
     Arguments:
         schema: as of `keys_page`.
     """
-    tables: dict[str, list[tuple[str, str, str]]] = {"": []}
-    name = ""
-    for line in keys_page("", schema).splitlines():
-        if line.startswith("## "):
-            name = line[3:]
-        elif line.startswith("| `"):
-            keys, takes, default, meaning = map(_bare, re.split(r" (?<!\\)\| ?", line[2:])[:4])
-            first, *others = keys.split(", ")
+    tables: dict[str, list[tuple[str, str, str]]] = {}
+    for name, (_, rows) in _Keys(schema.get("$defs", {})).tables(schema).items():
+        for row in rows:
+            takes, default, meaning = (
+                LINKED.sub(r"\1", cell).replace("`", "").replace("\\", "") for cell in row[1:]
+            )
             if len(default) > LONGEST:
                 default, meaning = "", f"{meaning} By default {default}."
-            also = f" Also {', '.join(others)}." if others else ""
-            said = ": ".join(filter(None, (takes, meaning)))
-            tables.setdefault(name, []).append((first, default, said + also))
+            also = f" Also {', '.join(row.keys[1:])}." if row.keys[1:] else ""
+            text = ": ".join(filter(None, (takes, meaning))) + also
+            tables.setdefault(name, []).append((row.keys[0], default, text))
     return tables
 
 
-def _bare(cell: str) -> str:
-    """A cell without the signs of Markdown."""
-    return re.sub(r"(?<!\\)\[([^]]*)\]\(#[^)]*\)", r"\1", cell).replace("\\", "").replace("`", "").strip()
-
-
-class _KeysPage:
-    """A page that is being written: the classes it refers to, and tables in few words that have no class.
+class _Keys:
+    """Tables that are being made: the classes they refer to, and tables in few words that have no class.
 
     definitions: schemas of classes, by name.
     """
@@ -60,53 +74,41 @@ class _KeysPage:
         self.short: dict[str, Schema] = {}
         self.owner = ""
 
-    def text(self, title: str, schema: Schema) -> str:
-        """The whole page."""
-        parts = [f"# {title}", schema.get("description", ""), TOP]
-        if "properties" in schema:
-            parts.append(self._table(schema))
-        elif kinds := schema.get("oneOf", schema.get("anyOf")):
-            parts.append("A file is " + ", or ".join(self._takes(one) for one in kinds) + ".")
-        classes = [
-            part for name in sorted(self.definitions) for part in self._section(name, self.definitions[name])
-        ]
-        done: set[str] = set()
-        while len(done) < len(self.short):  # a table in few words may hold one
-            for name in [one for one in self.short if one not in done]:
-                parts += self._section(name, self.short[name])
-                done.add(name)
-        return "\n\n".join(part for part in [*parts, *classes] if part) + "\n"
+    def tables(self, schema: Schema) -> dict[str, tuple[str, list[KeyRow]]]:
+        """Description and rows of the file (its name is empty), of tables in few words, and of classes."""
+        first = ""
+        if "properties" not in schema and (kinds := schema.get("oneOf", schema.get("anyOf"))):
+            first = "A file is " + ", or ".join(self._takes(kind) for kind in kinds) + "."
+        found = {"": (first, list(self._rows(schema)))}
+        classes = {}
+        for name in sorted(self.definitions):
+            self.owner = name
+            classes[name] = (
+                _plain(self.definitions[name].get("description", "")),
+                list(self._rows(self.definitions[name])),
+            )
+        while missing := [name for name in self.short if name not in found]:
+            for name in missing:
+                self.owner = name
+                found[name] = "", list(self._rows(self.short[name]))
+        return found | classes
 
-    def _section(self, name: str, schema: Schema) -> list[str]:
-        self.owner = name
-        table = self._table(schema) if schema.get("properties") else ""
-        return [f"## {name}", "" if name in self.short else _plain(schema.get("description", "")), table]
-
-    def _table(self, schema: Schema) -> str:
-        rows: list[tuple[list[str], Schema]] = []
-        for key, one in schema["properties"].items():
-            stem = rows[-1][0][0].rpartition("_")[0] if rows else ""
-            same = rows and stem and key.startswith(stem) and _unitless(one) == _unitless(rows[-1][1])
-            if same and "const" not in one:
-                rows[-1][0].append(key)
+    def _rows(self, schema: Schema) -> Iterator[KeyRow]:
+        """The rows of a table; keys that differ in their unit alone share one."""
+        grouped: list[tuple[list[str], Schema]] = []
+        for key, kind in schema.get("properties", {}).items():
+            stem = grouped[-1][0][0].rpartition("_")[0] if grouped else ""
+            same = grouped and stem and key.startswith(stem) and _unitless(kind) == _unitless(grouped[-1][1])
+            if same and "const" not in kind:
+                grouped[-1][0].append(key)
             else:
-                rows.append(([key], one))
+                grouped.append(([key], kind))
         needed = set(schema.get("required", ()))
         for rule in schema.get("allOf", ()):  # one of several units is needed
             needed |= {key for one in rule.get("anyOf", ()) for key in one.get("required", ())}
-        lines = ["| key | takes | if nothing is said | meaning |", "|---|---|---|---|"]
-        for keys, one in rows:
-            usual = "needed" if needed & set(keys) else _said(one.get("default", ""))
-            cells = (
-                ", ".join(f"`{key}`" for key in keys),
-                self._takes(one),
-                usual,
-                _plain(one.get("description", "")),
-            )
-            lines.append(
-                "| " + " | ".join(cell.replace("|", "\\|").replace("\n", " ") for cell in cells) + " |"
-            )
-        return "\n".join(lines)
+        for keys, kind in grouped:
+            default = "needed" if needed & set(keys) else _said(kind.get("default", ""))
+            yield KeyRow(keys, self._takes(kind), default, _plain(kind.get("description", "")))
 
     def _takes(self, one: Schema) -> str:
         """In words what fits a schema; classes with a link to their table on the same page."""

@@ -5,7 +5,6 @@ from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 from support_exudyn.files.own_modules import NotImported, with_known_laws
-from support_exudyn.mechanics.trajectory import OilEvent
 from support_exudyn.postprocessing.figures.units import said
 from support_exudyn.scenario.pin_pressure import PressedPin, pressed_pin
 from support_exudyn.scenario.pin_stability import PinOutlook
@@ -24,11 +23,15 @@ FILLED = "filled"  # what ends where a cavity begins, see `OilEvent`
 
 
 class ResultTable(NamedTuple):
-    """A table: its title, the heads of its columns, of numbers with a > before them, and its rows."""
+    """A table: title, heads of its columns, those of numbers with a > before them, rows, lines below it.
+
+    Without heads the columns are names and words.
+    """
 
     title: str
     header: tuple[str, ...]
     rows: list[tuple[str, ...]]
+    note: str = ""
 
 
 # --- laws ---
@@ -80,43 +83,42 @@ def hardest_pressed(result: Result) -> list[PressedPin]:
     return [pressed_pin(machine, name, pin, forces[name]) for name, pin in pins.items() if name in forces]
 
 
-def pressure_table(table_title: str, pins: Sequence[PressedPin]) -> ResultTable:
+def pressure_table(title: str, pins: Sequence[PressedPin]) -> ResultTable:
     """Pin, force, pressure, its share of first yield, half contact angle, depth, stiffness, kind of contact."""
-    header = (
-        *("pin", ">force", ">peak pressure", ">of first yield", ">half angle", ">depth", ">stiffness"),
-        "contact",
-    )
     rows: list[tuple[str, ...]] = []
-    for one in pins:
-        line, kind = one.line, "length unknown" if one.length is None else "beyond the theory"
-        if line is not None:
-            kind = "conformal" if line.conformal else "line"
+    for one, data in zip(pins, pressure_data(pins), strict=True):
+        pressure, angle, stiffness = (
+            data[key] for key in ("peak_pressure_Pa", "half_angle_rad", "stiffness_N_per_m")
+        )
+        kind = "length unknown" if one.length is None else "beyond the theory"
         rows.append((
             one.name,
             said(one.force, "N", DIGITS),
-            "" if line is None else said(line.peak_pressure, "Pa", DIGITS),
-            "" if math.isnan(one.yield_share) else f"{100.0 * one.yield_share:.{DIGITS}g} %",
-            "" if line is None else f"{math.degrees(line.half_angle):.{DIGITS}g}°",
-            said(one.depth, "m", DIGITS) if math.isfinite(one.depth) else "",
-            f"{one.stiffness / 1e9:.{DIGITS}g} MN/mm" if math.isfinite(one.stiffness) else "",
-            kind,
+            "" if pressure is None else said(pressure, "Pa", DIGITS),
+            "" if data["share_of_first_yield"] is None else f"{100.0 * one.yield_share:.{DIGITS}g} %",
+            "" if angle is None else f"{math.degrees(angle):.{DIGITS}g}°",
+            "" if data["depth_m"] is None else said(one.depth, "m", DIGITS),
+            "" if stiffness is None else f"{stiffness / 1e9:.{DIGITS}g} MN/mm",
+            kind if one.line is None else "conformal" if one.line.conformal else "line",
         ))  # fmt: skip
-    return ResultTable(table_title, header, rows)
+    numbers = (">force", ">peak pressure", ">of first yield", ">half angle", ">depth", ">stiffness")
+    notes = [f"warning: {one.warning}" for one in pins if one.warning]
+    return ResultTable(title, ("pin", *numbers, "contact"), rows, "\n".join(notes))
 
 
 def pressure_data(pins: Sequence[PressedPin]) -> list[dict[str, Any]]:
-    """How hard each pin is pressed, as plain data in SI; what is not known is None or not finite."""
+    """How hard each pin is pressed, as plain data in SI; what is not known is None."""
     return [
         {
             "pin": one.name,
             "force_N": one.force,
             "length_m": one.length,
-            "peak_pressure_Pa": None if one.line is None else one.line.peak_pressure,
+            "peak_pressure_Pa": one.line and one.line.peak_pressure,
             "share_of_first_yield": _known(one.yield_share),
-            "half_angle_rad": None if one.line is None else one.line.half_angle,
+            "half_angle_rad": one.line and one.line.half_angle,
             "depth_m": _known(one.depth),
             "stiffness_N_per_m": _known(one.stiffness),
-            "conformal": None if one.line is None else one.line.conformal,
+            "conformal": one.line and one.line.conformal,
         }
         for one in pins
     ]
@@ -185,21 +187,17 @@ def stability_data(outlooks: Sequence[PinOutlook]) -> list[dict[str, Any]]:
 def leg_table(result: Result, after: float = 0.0, until: float = float("inf")) -> ResultTable:
     """What happened in every leg between two times [s]: leg, what, how often, when first and last.
 
-    Rows name the beginning of something; of cavities, when they began.
+    Rows name the beginning of an event; of cavities, when they began.
     """
     rows: list[tuple[str, ...]] = []
     for name, events in result.oil_events.items():
-        inside = [event for event in events if after <= event.time <= until]
-        found = [(what, _begins(inside, what)) for what in dict.fromkeys(event.what for event in inside)]
-        for what, times in found:
-            if times:
-                cavity = f"cavity in the {what.removesuffix(FILLED).strip()}" if what.endswith(FILLED) else what
-                rows.append((name, cavity, str(len(times)), said(times[0], "s", 6), said(times[-1], "s", 6)))
-        if not any(times for _, times in found):
+        begun: dict[str, list[float]] = {}
+        for event in events:
+            if after <= event.time <= until and event.begins != event.what.endswith(FILLED):
+                begun.setdefault(event.what, []).append(event.time)
+        for what, times in begun.items():
+            cavity = f"cavity in the {what.removesuffix(FILLED).strip()}" if what.endswith(FILLED) else what
+            rows.append((name, cavity, str(len(times)), said(times[0], "s", 6), said(times[-1], "s", 6)))
+        if not begun:
             rows.append((name, "nothing opened, boiled or met a stop", "", "", ""))
     return ResultTable("hydraulic legs", ("leg", "what", ">times", ">first", ">last"), rows)
-
-
-def _begins(events: Sequence[OilEvent], what: str) -> list[float]:
-    """The times [s] at which it began."""
-    return [event.time for event in events if event.what == what and event.begins != what.endswith(FILLED)]

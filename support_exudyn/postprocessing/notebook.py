@@ -1,6 +1,5 @@
 """What notebooks show of scenarios and results, see `scenario.presentation`."""
 
-import math
 from collections.abc import Sequence
 
 from matplotlib.figure import Figure
@@ -9,10 +8,10 @@ from support_exudyn.postprocessing import summary
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.figures.channels import over_time
 from support_exudyn.postprocessing.html import html_table
+from support_exudyn.postprocessing.joint_tables import ResultTable
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.result import Result
 
-IMPACTS = ("pin", "impact", ">time", ">lasts", ">speed of approach", ">of separation", ">force at records")
 FORCES = ("pin.*.force",)  # that are drawn if nothing is named
 
 
@@ -27,18 +26,14 @@ def figure(result: Result, channels: Sequence[str], after: float, until: float) 
 
 def page_of_result(result: Result) -> str:
     """What was run, what came out with its errors, first impacts, and how it was computed."""
-    known = "± estimated numerical error" if result.coarser else "errors not known: no accuracy was asked"
-    header: tuple[str, ...] = ("number", ">value", ">±", "unit")
-    rows = [row for row in summary.came_out(result, 0.0, math.inf) if ".onset_" not in row[0]]
-    if result.coarser is None:
-        header, rows = (header[0], header[1], header[3]), [(row[0], row[1], row[3]) for row in rows]
+    came_out = summary.numbers_table(result)
     tables = [
-        html_table(repr(result).strip("<>"), (), summary.what_was_run(result)),
-        html_table(f"what came out ({known})", header, rows),
+        ResultTable(repr(result).strip("<>"), (), summary.what_is_run(result.scenario)),
+        came_out._replace(rows=[row for row in came_out.rows if ".onset_" not in row[0]]),
+        summary.impacts_table("first impacts", result),
+        ResultTable("how", (), summary.how(result)),
     ]
-    if impacts := summary.impacts(result):
-        tables.append(html_table("first impacts", IMPACTS, impacts))
-    return "".join([*tables, html_table("how", (), summary.how(result))])
+    return "".join(html_table(table.title, table.header, table.rows) for table in tables if table.rows)
 
 
 def page_of_scenario(scenario: Scenario) -> str:

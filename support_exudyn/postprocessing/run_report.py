@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import tempfile
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -14,56 +13,23 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from support_exudyn.model.linkage import GROUND
-from support_exudyn.postprocessing import joint_tables
-from support_exudyn.postprocessing import summary as summary
+from support_exudyn.postprocessing import joint_tables, summary
 from support_exudyn.postprocessing.figures import overlay, style
 from support_exudyn.postprocessing.figures.linkage_drawing import machine_drawing
 from support_exudyn.postprocessing.figures.selection import matching
+from support_exudyn.postprocessing.joint_tables import ResultTable
 from support_exudyn.postprocessing.page.live import LiveFigure, of_drawing
 from support_exudyn.postprocessing.page.live_html import html
-from support_exudyn.postprocessing.page.pieces import (
-    Sheet,
-    ShownFigure,
-    ShownTable,
-    image,
-    templates,
-)
-from support_exudyn.postprocessing.shown_numbers import label, ranking, shown
+from support_exudyn.postprocessing.page.pieces import Sheet, ShownFigure, ShownTable, image, templates
+from support_exudyn.postprocessing.shown_numbers import label, numbers, ranking, shown, side_by_side
 from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
 
 TEMPLATE = "run_report.html.j2"
 MOST_CHANNELS = 24  # panels
-WHOLE = (0.0, math.inf)
-DIGITS = 6  # of numbers whose error is smaller, or not known
 STILL = (1280, 720)
-
-
-@dataclass(frozen=True)
-class RunReport:
-    """What the page says.
-
-    runs: their names. numbers: the first ones are those of the clearance pins. still: a picture, or None and
-    `no_still`, why not. hardest: of each run with several clearance pins, how hard each is hit.
-    """
-
-    runs: tuple[str, ...]
-    machines: tuple[ShownFigure, ...]
-    over_time: ShownFigure
-    hardest: tuple[str, ...]
-    key: ShownTable
-    numbers: ShownTable
-    impacts: ShownTable
-    pressed: ShownTable
-    what: ShownTable
-    still: ShownFigure | None
-    no_still: str
-
-    @property
-    def title(self) -> str:
-        """The title of the page."""
-        return f"Run {self.runs[0]}" if len(self.runs) == 1 else f"Runs {', '.join(self.runs)}"
+OVER_TIME = "Channels over time. Thinned to the least and the greatest record of short pieces: no peak is lost."
 
 
 def run_report(runs: Mapping[str, Result], channels: Sequence[str] = ()) -> str:
@@ -76,42 +42,45 @@ def run_report(runs: Mapping[str, Result], channels: Sequence[str] = ()) -> str:
 
     Raises InputError if a pattern matches no channel, or there is nothing to draw.
     """
-    names = _asked(runs, channels) if channels else _default(runs)
+    every = list(dict.fromkeys(name for result in runs.values() for name in result.channels))
+    names = matching(every, channels) if channels else _default(runs)
     if not names or len(names) > MOST_CHANNELS:
         raise InputError(f"{len(names)} channels to draw over time; allowed: 1 to {MOST_CHANNELS}")
     drawing, live = _over_time(runs, names)
     pages = html({"channels": live})
-    caption = (
-        "Channels over time. Thinned to the least and the greatest record of short pieces: no peak is lost."
-    )
-    over_time = ShownFigure(_picture(drawing), caption, Markup(pages.places["channels"]), "channels")
-    found_of = [summary.numbers(result, *WHOLE) for result in runs.values()]
-    estimates = dict(zip(runs, shown([*runs.values()], found_of, *WHOLE), strict=True))
-    key = _key_names(runs, estimates)
-    every = list(dict.fromkeys(number for found in estimates.values() for number in found))
+    found_of = [numbers(result, *summary.WHOLE) for result in runs.values()]
+    estimates = dict(zip(runs, shown([*runs.values()], found_of, *summary.WHOLE), strict=True))
     still, no_still = _still(runs)
-    report = RunReport(
-        tuple(runs),
-        _machines(runs),
-        over_time,
-        tuple(f"{name} {order}" for name, found in estimates.items() if (order := ranking(found))),
-        ShownTable(_numbers("Numbers of the clearance pins and traced points", estimates, key), "key"),
-        ShownTable(_numbers("All numbers", estimates, every), "numbers"),
-        ShownTable(_impacts(runs), "impacts"),
-        ShownTable(_pressed(runs), "pressed"),
-        ShownTable(_what(runs), "what"),
-        still,
-        no_still,
+    impacts = {run: summary.impacts_table("First impacts", result) for run, result in runs.items()}
+    pressed = {
+        run: joint_tables.pressure_table(
+            joint_tables.LARGEST.capitalize(), joint_tables.hardest_pressed(result)
+        )
+        for run, result in runs.items()
+    }
+    return (
+        templates()
+        .get_template(TEMPLATE)
+        .render(
+            title=f"Run {next(iter(runs))}" if len(runs) == 1 else f"Runs {', '.join(runs)}",
+            machines=_machines(runs),
+            over_time=ShownFigure(_picture(drawing), OVER_TIME, Markup(pages.places["channels"]), "channels"),
+            hardest=[f"{name} {order}" for name, found in estimates.items() if (order := ranking(found))],
+            key=ShownTable(
+                _numbers("Numbers of the clearance pins and traced points", runs, estimates, True), "key"
+            ),
+            numbers=ShownTable(_numbers("All numbers", runs, estimates), "numbers"),
+            impacts=ShownTable(_of_runs(impacts), "impacts"),
+            pressed=ShownTable(_of_runs(pressed), "pressed"),
+            what=ShownTable(_what(runs), "what"),
+            still=still,
+            no_still=no_still,
+            scripts=Markup(pages.scripts),
+        )
     )
-    return templates().get_template(TEMPLATE).render(report=report, scripts=Markup(pages.scripts))
 
 
 # --- channels ---
-
-
-def _asked(runs: Mapping[str, Result], patterns: Sequence[str]) -> list[str]:
-    """The channels of any run that match, in the order of the patterns."""
-    return matching(list(dict.fromkeys(name for result in runs.values() for name in result.channels)), patterns)
 
 
 def _watched_pins(result: Result) -> list[str]:
@@ -227,54 +196,42 @@ def _telling_time(result: Result) -> tuple[float, str]:
 # --- tables ---
 
 
-def _key_names(runs: Mapping[str, Result], estimates: Mapping[str, Mapping[str, Estimate]]) -> list[str]:
-    """The numbers that are looked at first: forces of clearance pins (or of all), and traced points."""
-    pins = list(dict.fromkeys(pin for result in runs.values() for pin in result.scenario.clearance_pins))
-    pins = pins or list(dict.fromkeys(pin for result in runs.values() for pin in result.scenario.linkage.pins))
-    points = [point for result in runs.values() for point in result.scenario.linkage.points]
-    starts = tuple([f"pin.{pin}" for pin in pins] + [f"{point}." for point in points])
-    every = list(dict.fromkeys(name for found in estimates.values() for name in found))
-    return [name for name in every if name.startswith(starts) and ".onset_" not in name]
-
-
-def _numbers(title: str, estimates: Mapping[str, Mapping[str, Estimate]], names: Iterable[str]) -> Sheet:
-    """Numbers side by side, a column a run."""
-    rows = []
-    for name in names:
-        found = [estimates[run].get(name) for run in estimates]
-        rows.append((label(name), *summary.side_by_side(found)))
+def _numbers(
+    title: str, runs: Mapping[str, Result], estimates: Mapping[str, Mapping[str, Estimate]], key: bool = False
+) -> Sheet:
+    """Numbers side by side, a column a run; key: of clearance pins (or of all pins) and traced points alone."""
+    names: Iterable[str] = dict.fromkeys(name for found in estimates.values() for name in found)
+    if key:
+        loose = {pin for result in runs.values() for pin in result.scenario.clearance_pins}
+        pins = loose or {pin for result in runs.values() for pin in result.scenario.linkage.pins}
+        points = {point for result in runs.values() for point in result.scenario.linkage.points}
+        starts = (*(f"pin.{pin}" for pin in pins), *(f"{point}." for point in points))
+        names = [name for name in names if name.startswith(starts) and ".onset_" not in name]
+    rows = [(label(name), *side_by_side([estimates[run].get(name) for run in estimates])) for name in names]
     known = any(math.isfinite(one.error) for found in estimates.values() for one in found.values())
     note = (
-        "± estimated numerical error; where none is told, it is below the last digit."
+        "± estimated numerical error; without one it is below the last digit."
         if known
         else "Numerical errors are not known: no accuracy was asked."
     )
     return Sheet(title, ("number", "unit", *estimates), tuple(rows), note, left=2, name="numbers")
 
 
-def _impacts(runs: Mapping[str, Result]) -> Sheet:
-    rows = [(run, *row) for run, result in runs.items() for row in summary.impacts(result)]
-    header = ("run", "pin", "impact", "time", "lasts", "approach", "separation", "force at records")
-    return Sheet("First impacts, and speeds of approach and separation", header, tuple(rows), left=3)
-
-
-def _pressed(runs: Mapping[str, Result]) -> Sheet:
-    """How hard the clearance pins are pressed at their largest force."""
-    pins = [(run, one) for run, result in runs.items() for one in joint_tables.hardest_pressed(result)]
-    title, header, rows = joint_tables.pressure_table(
-        joint_tables.LARGEST.capitalize(), [one for _, one in pins]
-    )
-    note = " ".join(f"{run}, {one.warning}." for run, one in pins if one.warning)
-    cells = tuple((run, *row) for (run, _), row in zip(pins, rows, strict=True))
-    return Sheet(title, ("run", *(name.lstrip(">") for name in header)), cells, note, left=2)
+def _of_runs(tables: Mapping[str, ResultTable]) -> Sheet:
+    """A table of several runs, with the name of the run in the first column."""
+    title, header, _, _ = next(iter(tables.values()))
+    rows = tuple((run, *row) for run, table in tables.items() for row in table.rows)
+    note = " ".join(f"{run}, {line}." for run, table in tables.items() for line in table.note.splitlines())
+    left = 1 + next(n for n, head in enumerate(header) if head.startswith(">"))
+    return Sheet(title, ("run", *(head.lstrip(">") for head in header)), rows, note, left=left)
 
 
 def _what(runs: Mapping[str, Result]) -> Sheet:
     """What was run and how, side by side."""
-    told = {
-        run: {row[0]: row[1] for row in (*summary.what_was_run(result), *summary.how(result))}
-        for run, result in runs.items()
+    words = {
+        run: {row[0]: row[1] for row in (*summary.what_is_run(one.scenario), *summary.how(one))}
+        for run, one in runs.items()
     }
-    names = dict.fromkeys(name for rows in told.values() for name in rows)
-    rows = tuple((name, *(rows.get(name, "") for rows in told.values())) for name in names)
+    names = dict.fromkeys(name for rows in words.values() for name in rows)
+    rows = tuple((name, *(rows.get(name, "") for rows in words.values())) for name in names)
     return Sheet("What was run, and how", ("", *runs), rows, wide=True)

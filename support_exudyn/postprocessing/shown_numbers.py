@@ -1,53 +1,70 @@
-"""Which numbers of runs are printed, in which order, and by which names."""
+"""Numbers of runs: which are printed, in which order, by which names, with which digits."""
 
+import math
 from collections.abc import Mapping, Sequence
 
-from support_exudyn.postprocessing.figures.units import said
+from support_exudyn.postprocessing.figures.units import readable, said
 from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.impulses import NO_PEAK
+from support_exudyn.simulation.reported_numbers import FORCE, measures
 from support_exudyn.simulation.result import Result
 
+DIGITS = 6  # of numbers without known error
 LARGEST = ".largest_force"  # of a clearance pin, over the whole run
 LARGEST_TIME = f"{LARGEST}_time"
 WHOLE_RUN = (LARGEST, LARGEST_TIME)
 IMPULSE = ".force.impulse_"  # in place of a peak that has no limit
-TIME = "_time"  # of largest values, which may jump from peak to peak
-VAGUE = 0.1  # share of a window; a time with a larger error is one of several alike peaks
+VAGUE = 0.1  # share of a window; a time with a larger error is that of several alike peaks
 IN_WINDOW = (".force.largest", ".force.largest_time")  # the same over the window
 
 
+def numbers(result: Result, after: float, until: float) -> dict[str, Estimate]:
+    """Numbers of the forces and of the energy between two times [s], in SI; an error that is not known is NaN.
+
+    Errors are known if an accuracy was asked for. Largest forces at any step and energies are of the whole run.
+
+    Raises InputError if no record lies between.
+    """
+    result.check_window(after, until)
+    if result.coarser is not None:
+        found = dict(result.numbers(after, until))
+    else:
+        found = {
+            name: Estimate(kind.measure(result), math.nan, kind.unit)
+            for name, kind in measures(result, after, until).items()
+            if f"{FORCE}." in name or name.endswith(WHOLE_RUN)
+        }
+    names = [f"energy.{name}" for name in ("work", "damping_loss", "friction_loss")]
+    energies = {f"{name} at the end": float(result[name][-1]) for name in names if name in result.channels}
+    if "energy.balance" in result.channels:
+        energies["energy not accounted for, largest"] = result.energy_error
+    return found | {name: Estimate(value, math.nan, "J") for name, value in energies.items()}
+
+
 def hardest_first(found: Mapping[str, Estimate]) -> list[str]:
-    """The clearance pins, corners in guides and blocks, by their largest force, the hardest first.
+    """What the numbers of clearance joints begin with, such as `pin.rear_base`, the largest force first.
 
     found: numbers of the run by name, as `Result.numbers` names them.
     """
-    largest = {name: one.value for name, one in found.items() if name.endswith(LARGEST)}
-    ranked = sorted(largest, key=lambda name: -largest[name])
-    return [name.removeprefix("pin.").removesuffix(LARGEST) for name in ranked]
-
-
-def stem(joint: str, found: Mapping[str, Estimate]) -> str:
-    """What a joint's numbers begin with among these; joint: as `hardest_first` names it, without "pin."."""
-    return f"pin.{joint}" if f"pin.{joint}{LARGEST}" in found else joint
+    largest = {name.removesuffix(LARGEST): one.value for name, one in found.items() if name.endswith(LARGEST)}
+    return sorted(largest, key=lambda joint: -largest[joint])
 
 
 def ranking(found: Mapping[str, Estimate]) -> str:
     """Which of several clearance pins is hit hardest, how hard and when, then the others; empty for one pin.
 
-    found: numbers of the run that are printed, see `shown`; a time that is not among them is not told.
+    found: numbers of the run that are printed, see `shown`; times that are not among them are left out.
     """
-    told = [_hit(pin, found) for pin in hardest_first(found)]
-    return f"hits hardest: {told[0]}; then {'; '.join(told[1:])}" if len(told) > 1 else ""
-
-
-def _hit(pin: str, found: Mapping[str, Estimate]) -> str:
-    own = stem(pin, found)
-    force, when = found[f"{own}{LARGEST}"], found.get(f"{own}{LARGEST_TIME}")
-    return f"{pin}, {said(force.value, force.unit, 4)}" + (f" at {said(when.value, 's', 4)}" if when else "")
+    hits = []
+    for joint in hardest_first(found):
+        force, when = found[f"{joint}{LARGEST}"], found.get(f"{joint}{LARGEST_TIME}")
+        at = f" at {said(when.value, 's', 4)}" if when else ""
+        hits.append(f"{joint.removeprefix('pin.')}, {said(force.value, force.unit, 4)}{at}")
+    return f"hits hardest: {hits[0]}; then {'; '.join(hits[1:])}" if len(hits) > 1 else ""
 
 
 def shown(
-    runs: Sequence[Result], numbers: Sequence[Mapping[str, Estimate]], after: float, until: float
+    runs: Sequence[Result], found_of: Sequence[Mapping[str, Estimate]], after: float, until: float
 ) -> list[dict[str, Estimate]]:
     """The numbers of some runs as they are printed.
 
@@ -57,36 +74,37 @@ def shown(
 
     Arguments:
         runs: the runs.
-        numbers: of each its numbers by name.
+        found_of: of each its numbers by name.
         after, until: times between which they were taken [s].
 
     Returns:
         Of each run the numbers that are printed, in their order.
     """
-    first = [
-        f"{stem(pin, found)}{end}" for found in numbers for pin in hardest_first(found) for end in WHOLE_RUN
-    ]
-    names = list(dict.fromkeys([*first, *(name for found in numbers for name in found)]))
-    left_out = {
-        name
-        for name in names
-        if name.endswith(IN_WINDOW) and all(_has_whole_run(name, found) for found in numbers if name in found)
-    }
-    if not all(_is_whole(run, after, until) for run in runs):
-        left_out = set()
+    first = [f"{joint}{end}" for found in found_of for joint in hardest_first(found) for end in WHOLE_RUN]
+    names = list(dict.fromkeys([*first, *(name for found in found_of for name in found)]))
+    left_out: set[str] = set()
+    if all(after <= run.time[0] and until >= run.time[-1] for run in runs):
+        repeated = {
+            name: f"{name.rpartition('.force.')[0]}{LARGEST}" for name in names if name.endswith(IN_WINDOW)
+        }
+        left_out = {
+            name
+            for name, whole in repeated.items()
+            if all(whole in found for found in found_of if name in found)
+        }
     return [
         {
             name: found[name]
             for name in names
             if name in found and name not in left_out and not _is_vague(name, found[name], run, after, until)
         }
-        for run, found in zip(runs, numbers, strict=True)
+        for run, found in zip(runs, found_of, strict=True)
     ]
 
 
 def _is_vague(name: str, number: Estimate, run: Result, after: float, until: float) -> bool:
     """Whether a time of a largest value may be that of another peak; never where its error is not known."""
-    if not name.endswith(TIME):
+    if not name.endswith("_time"):
         return False
     first, last = float(run.time[0]), float(run.time[-1])
     if not name.endswith(LARGEST_TIME):
@@ -98,15 +116,32 @@ def label(name: str) -> str:
     """The name of a number as it is printed; the largest force over the whole run says so."""
     if IMPULSE in name:
         return f"{name}, {NO_PEAK.partition(', ')[2]}"
-    if name.endswith(WHOLE_RUN):
-        return f"{name}, whole run"
-    return name
+    return f"{name}, whole run" if name.endswith(WHOLE_RUN) else name
 
 
-def _has_whole_run(name: str, found: Mapping[str, Estimate]) -> bool:
-    """Whether a run has the number over the whole run, too."""
-    return f"{name.rpartition('.force.')[0]}{LARGEST}" in found
+def with_error(found: Estimate) -> tuple[str, str, str]:
+    """A number, its error to its leading digits (empty if it is NaN), and the unit in which both are."""
+    unit = readable(found.unit, abs(found.value))
+    value, error = unit.scale * found.value, unit.scale * found.error
+    if math.isfinite(error) and error > 0.0:
+        digits = min(max(0, 1 - math.floor(math.log10(error))), 9)
+        return f"{value:.{digits}f}", f"{error:.1e}", unit.name
+    unknown = "" if math.isnan(error) else "not known" if error else "0"
+    return f"{value:.{DIGITS}g}", unknown, unit.name
 
 
-def _is_whole(run: Result, after: float, until: float) -> bool:
-    return bool(after <= run.time[0] and until >= run.time[-1])
+def side_by_side(found: Sequence[Estimate | None], most: int = DIGITS) -> tuple[str, ...]:
+    """Unit, and numbers of several runs in it with their errors, of at most so many digits; None: empty."""
+    there = [one for one in found if one is not None]
+    unit = readable(there[0].unit, max(abs(one.value) for one in there))
+    return unit.name, *("" if one is None else to_error(one, unit.scale, most) for one in found)
+
+
+def to_error(number: Estimate, scale: float, most: int = DIGITS) -> str:
+    """A number to the first digit of its error, and the error, unless that is below the shown digits."""
+    value, error = scale * number.value, scale * number.error
+    size = math.floor(math.log10(abs(value))) if value else 0
+    decimals = max(-math.floor(math.log10(error)), 0) if math.isfinite(error) and error > 0.0 else math.inf
+    if decimals > most - 1 - size:
+        return f"{value:.{most}g}"
+    return f"{value:.{decimals}f} ± {error:.{decimals}f}"

@@ -11,10 +11,9 @@ from typing import TYPE_CHECKING
 
 from matplotlib.figure import Figure
 
-from support_exudyn.postprocessing import summary
 from support_exudyn.postprocessing.figures import overlay, style
 from support_exudyn.postprocessing.html import html_table
-from support_exudyn.postprocessing.shown_numbers import shown
+from support_exudyn.postprocessing.shown_numbers import numbers, shown, side_by_side
 from support_exudyn.simulation.data_frames import library
 from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.result import Result
@@ -45,21 +44,21 @@ class RunsSideBySide:
         """Numbers that any run has, by name, of each run that has it; an error that is not known is NaN."""
         return _by_name(self._of_runs)
 
-    def rows(self) -> list[summary.Row]:
+    def rows(self) -> list[tuple[str, ...]]:
         """A row for each printed number: name, unit in which it is read best, and value ± error of each run."""
         found_of = [*self._of_runs.values()]
         printed = dict(
             zip(self.runs, shown([*self.runs.values()], found_of, self.after, self.until), strict=True)
         )
         return [
-            (name, *summary.side_by_side([found.get(run) for run in self.runs]))
+            (name, *side_by_side([found.get(run) for run in self.runs]))
             for name, found in _by_name(printed).items()
         ]
 
     @cached_property
     def _of_runs(self) -> Mapping[str, Mapping[str, Estimate]]:
         """Numbers by run."""
-        return {run: summary.numbers(result, self.after, self.until) for run, result in self.runs.items()}
+        return {run: numbers(result, self.after, self.until) for run, result in self.runs.items()}
 
     def to_pandas(self) -> pd.DataFrame:
         """A row for each number, in SI: `unit`, and of each run its value and `NAME error`.
@@ -115,8 +114,8 @@ class RunsSideBySide:
 def _by_name(of_runs: Mapping[str, Mapping[str, Estimate]]) -> Named[dict[str, Estimate]]:
     """Numbers of runs by number, then by run."""
     found: Named[dict[str, Estimate]] = Named(what="number")
-    for run, numbers in of_runs.items():
-        for name, number in numbers.items():
+    for run, found_of_run in of_runs.items():
+        for name, number in found_of_run.items():
             found.setdefault(name, {})[run] = number
     return found
 

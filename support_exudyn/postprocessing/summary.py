@@ -1,37 +1,226 @@
-"""What a run was and what came out of it, in words and numbers with their units."""
+"""What a run was and what came out of it, as tables that a terminal, a notebook and a page show alike."""
 
 import dataclasses
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
+from support_exudyn.files.own_modules import with_known_laws
 from support_exudyn.formulations.registry import CHEAPEST_FIRST, FORMULATIONS, Formulation, formulation
 from support_exudyn.machines.check.freedoms import shared
 from support_exudyn.model.pins import ClearancePin, Pin
+from support_exudyn.postprocessing.figures import selection
 from support_exudyn.postprocessing.figures.units import readable, said
-from support_exudyn.postprocessing.joint_tables import contact_lines
-from support_exudyn.postprocessing.shown_numbers import WHOLE_RUN, label, shown
+from support_exudyn.postprocessing.joint_tables import (
+    LARGEST as AT_LARGEST,
+)
+from support_exudyn.postprocessing.joint_tables import (
+    ResultTable,
+    contact_lines,
+    hardest_pressed,
+    leg_table,
+    pressure_table,
+    stability_table,
+)
+from support_exudyn.postprocessing.shown_numbers import (
+    DIGITS,
+    LARGEST,
+    hardest_first,
+    label,
+    numbers,
+    ranking,
+    shown,
+    with_error,
+)
+from support_exudyn.scenario.pin_stability import PinOutlook, pin_outlooks
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scenario.scenario_data import LARGEST_GOAL
-from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.horizon import agreed
 from support_exudyn.simulation.impulses import impulses_of
 from support_exudyn.simulation.provenance import FORMULATION_ASKED
-from support_exudyn.simulation.reported_numbers import FORCE, measures
+from support_exudyn.simulation.reported_numbers import FORCE
 from support_exudyn.simulation.result import Result
 from user_forces.friction.laws import Frictionless
 from user_forces.values.value import InputError, Value
 
 Row = tuple[str, ...]
-IMPACTS = 3  # of every pin that are told one by one
+WHOLE = (0.0, math.inf)  # run [s]
+IMPACTS = 3  # of every pin that are listed
 VERSIONS = ("support-exudyn", "exudyn", "python", "numpy", "scipy", "numba")
 ROUNDING = 1e-14  # share of a channel's largest value that is shown as zero
-DIGITS = 6  # of numbers without known error
+
+# --- tables of a run ---
 
 
-def what_was_run(result: Result) -> list[Row]:
-    """Machine, pins, drives and settings of a result: name and words."""
-    return what_is_run(result.scenario)
+def run_tables(result: Result, ends: tuple[float, float] = WHOLE, every: bool = False) -> Iterator[ResultTable]:
+    """All tables of a run between two times [s]; every: of all channels, not only of the usual ones."""
+    yield ResultTable("what was run", (), what_is_run(result.scenario))
+    yield ResultTable("how", (), how(result))
+    yield numbers_table(result, ends)
+    yield leg_table(result, *ends)
+    yield pressure_table(AT_LARGEST, hardest_pressed(result))
+    yield stability_table(outlooks(result))
+    more = any(len(onsets) > IMPACTS for onsets in result.onsets.values())
+    title = "first impacts" + (" (all: show RUN --impacts)" if more else "")
+    yield impacts_table(title, result)
+    names = [name for name in result.channels if name != "time"] if every else telling(result)
+    yield channels_table(result, names, ends, len(result.channels) - 1 - len(names))
+
+
+def numbers_table(result: Result, ends: tuple[float, float] = WHOLE, only: Sequence[str] = ()) -> ResultTable:
+    """Numbers of a run between two times [s], with their errors if they are known.
+
+    only: names of those that are shown; without, those of `shown`, and which pin has the largest force.
+
+    Raises InputError if no record lies between.
+    """
+    every = numbers(result, *ends)
+    found = {name: every[name] for name in only} if only else shown([result], [every], *ends)[0]
+    rows: list[Row] = [(label(name), *with_error(number)) for name, number in found.items()]
+    header: tuple[str, ...] = ("number", ">value", ">±", "unit")
+    if not any(row[2] for row in rows):
+        header, rows = (*header[:2], header[3]), [(*row[:2], row[3]) for row in rows]
+    known = (
+        "± estimated numerical error" if result.coarser else "numerical errors not known: no accuracy was asked"
+    )
+    title = f"{'numbers' if only else 'what came out'}, {selection.said(result, *ends)} ({known})"
+    return ResultTable(title, header, rows, "" if only else ranking(found))
+
+
+def impacts_table(
+    title: str, result: Result, most: int | None = IMPACTS, ends: tuple[float, float] = WHOLE
+) -> ResultTable:
+    """Impacts of every clearance pin and every corner in a guide with clearance that begin between two times.
+
+    The force is the largest of the records between onset and separation, "" if none lies there.
+
+    Arguments:
+        title: of the table, without what its columns are.
+        result: the run.
+        most: how many of each pin; None: all.
+        ends: the times [s].
+    """
+    rows: list[Row] = []
+    for pin, onsets in result.onsets.items():
+        inside = [(n, onset) for n, onset in enumerate(onsets) if ends[0] <= onset.time <= ends[1]]
+        if not inside:
+            rows.append((pin, "none", "", "", "", "", ""))
+        for n, onset in inside[:most]:
+            separated = math.isfinite(onset.separation_time)
+            lasts = "to the next impact" if n + 1 < len(onsets) else "to the end"
+            force = force_of_impact(result, pin, n)
+            rows.append((
+                pin, f"{n + 1} of {len(onsets)}", said(onset.time, "s", 6),
+                said(onset.separation_time - onset.time, "s", 4) if separated else lasts,
+                said(onset.speed, "m/s", 5), said(onset.separation_velocity, "m/s", 5) if separated else "",
+                "" if force is None else said(force, "N", 4),
+            ))  # fmt: skip
+    header = ("pin", "impact", ">time", ">lasts", ">approach", ">separation", ">force")
+    return ResultTable(
+        f"{title}, speeds of approach and separation, largest force at the records", header, rows
+    )
+
+
+def channels_table(
+    result: Result, names: Iterable[str], ends: tuple[float, float] = WHOLE, rest: int = 0
+) -> ResultTable:
+    """Channels between two times [s]: unit, least, mean and greatest value with their signs, meaning.
+
+    rest: how many channels more there are.
+
+    Raises InputError if the run does not last between them.
+    """
+    rows: list[Row] = []
+    for name in names:
+        found = extent(result, name, *ends)
+        values = [found[word] for word in ("min", "mean", "max")]
+        size = max(map(abs, values))
+        unit = readable(found["unit"], size)
+        least, mean, greatest = (
+            f"{unit.scale * (value if abs(value) > ROUNDING * size else 0.0):.{DIGITS}g}" for value in values
+        )
+        if impulses_of(result, name, *ends):
+            least = greatest = "impulse"  # which has no finite peak
+        rows.append((name, unit.name, least, mean, greatest, found["meaning"]))
+    steps = "every step" if result.statistics else f"records every {said(result.scenario.recorded_every, 's')}"
+    more = f" ({rest} more: --all)" if rest else ""
+    header = ("channel", "unit", ">min", ">mean", ">max", "meaning")
+    return ResultTable(f"channels from {steps}, {selection.said(result, *ends)}{more}", header, rows)
+
+
+def in_short(result: Result) -> list[Row]:
+    """Mean, peak, fluctuation and impacts of the clearance joint with the largest force, as names and words.
+
+    Without a clearance joint of the pin with the largest force.
+    """
+    found = numbers(result, *WHOLE)
+    joints = hardest_first(found)
+    forces = [name for name in found if name.startswith("pin.") and name.endswith(".force.largest")]
+    largest = max(forces, key=lambda name: found[name].value, default="")
+    own = joints[0] if joints else largest.removesuffix(".force.largest")
+    if not own:
+        return [("forces", "none recorded")]
+    peak = f"{own}{LARGEST}" if joints else largest
+    rows = []
+    for what, name in (("mean force", "force.mean"), ("peak force", ""), ("fluctuation (RMS)", "force.std")):
+        number = found.get(f"{own}.{name}" if name else peak)
+        value, error, unit = ("not recorded", "", "") if number is None else with_error(number)
+        rows.append((f"{own}: {what}", f"{value} ± {error} {unit}" if error else f"{value} {unit}".rstrip()))
+    onsets = next((some for pin, some in result.onsets.items() if result.scenario.contact_stem(pin) == own), ())
+    others = f"; {len(joints) - 1} more clearance joints are hit less hard" if len(joints) > 1 else ""
+    impacts = f"{len(onsets)}{others}" if joints else "none, for there is no clearance joint"
+    return [*rows, (f"{own}: impacts", impacts)]
+
+
+# --- for scripts, in SI ---
+
+
+def facts(result: Result, ends: tuple[float, float] = WHOLE) -> dict[str, Any]:
+    """Accuracy, cost and numbers of a run between two times [s]."""
+    return {
+        "accuracy": {"asked": result.goal, "met": result.met if result.goal is not None else None},
+        "counts": dataclasses.asdict(result.counts),
+        "wall_time_s": result.wall_time,
+        "warnings": list(result.warnings),
+        "numbers": {name: number._asdict() for name, number in numbers(result, *ends).items()},
+    }
+
+
+def extent(result: Result, name: str, after: float, until: float) -> dict[str, Any]:
+    """Unit, meaning, and min, mean and max of a channel between two times [s], from every step.
+
+    Raises InputError if the run does not last between them.
+    """
+    channel = result.channels[name]
+    window = result.window(name, after, until)
+    extreme = {"min": window.least[0], "mean": window.mean, "max": window.greatest[0]}
+    return {"unit": channel.unit, "meaning": channel.meaning} | extreme
+
+
+def force_of_impact(result: Result, pin: str, n: int) -> float | None:
+    """Largest force of a clearance pin at the records of an impact [N], n from 0 on; None without records."""
+    onsets, stem = result.onsets[pin], result.scenario.contact_stem(pin)
+    name = next((name for name in (f"{stem}{FORCE}", f"{stem}.normal_force") if name in result.channels), "")
+    end = onsets[n].separation_time
+    if not math.isfinite(end):
+        end = onsets[n + 1].time if n + 1 < len(onsets) else math.inf
+    during = (result.time >= onsets[n].time) & (result.time <= end)
+    return float(result[name][during].max()) if name and during.any() else None
+
+
+def outlooks(result: Result) -> list[PinOutlook]:
+    """Whether friction makes the clearance pins of a run vibrate, by their postures alone."""
+    return pin_outlooks(result.scenario, pins=tuple(with_known_laws(result.scenario.clearance_pins)))
+
+
+def telling(result: Result) -> list[str]:
+    """Names of the usual channels: forces, depths, moments, traced points, energy."""
+    points = {f"{point}.{axis}" for point in result.scenario.linkage.points for axis in "xyz"}
+    ends = (".force", ".depth", ".gap_upper", ".gap_lower", ".moment", ".balance")
+    return [name for name in result.channels if name.endswith(ends) or name in points]
+
+
+# --- what was run, and how, in words ---
 
 
 def what_is_run(scenario: Scenario) -> list[Row]:
@@ -148,155 +337,6 @@ def _why_not(cheaper: Formulation, result: Result) -> str:
     return f"{cheaper.name} would need too many steps for its friction"
 
 
-def numbers(result: Result, after: float, until: float) -> dict[str, Estimate]:
-    """Numbers of the forces and of the energy between two times [s], in SI; an error that is not known is NaN.
-
-    Errors are known if an accuracy was asked for. Largest forces at any step and energies are of the whole run.
-
-    Raises InputError if no record lies between.
-    """
-    result.check_window(after, until)
-    found: dict[str, Estimate] = {}
-    if result.coarser is not None:
-        found |= result.numbers(after, until)
-    else:
-        found |= {
-            name: Estimate(kind.measure(result), math.nan, kind.unit)
-            for name, kind in measures(result, after, until).items()
-            if f"{FORCE}." in name or name.endswith(WHOLE_RUN)
-        }
-    return found | {name: Estimate(value, math.nan, "J") for name, value in _energies(result).items()}
-
-
-def printed(result: Result, after: float, until: float, only: Sequence[str] = ()) -> dict[str, Estimate]:
-    """`numbers` that are printed, in their order, see `shown`; only: names of those that are asked for.
-
-    Raises InputError if no record lies between.
-    """
-    every = numbers(result, after, until)
-    return {name: every[name] for name in only} if only else shown([result], [every], after, until)[0]
-
-
-def rows_of(found: Mapping[str, Estimate]) -> list[Row]:
-    """Numbers in the units in which they are read best: name, value, error (empty if not known), unit."""
-    return [(label(name), *with_error(number)) for name, number in found.items()]
-
-
-def came_out(result: Result, after: float, until: float) -> list[Row]:
-    """The rows of the numbers that are printed. Raises InputError if no record lies between."""
-    return rows_of(printed(result, after, until))
-
-
-def impacts(
-    result: Result, most: int | None = IMPACTS, after: float = 0.0, until: float = math.inf
-) -> list[Row]:
-    """Impacts of every clearance pin, and of every corner in a guide with clearance.
-
-    Each with pin, number, time, duration, speeds before and after, largest force. The force is that of the
-    records between onset and separation, "" if none lies there or none was recorded.
-
-    Arguments:
-        most: how many of each pin; None: all.
-        after, until: times between which they begin [s].
-    """
-    rows: list[Row] = []
-    for pin, onsets in result.onsets.items():
-        inside = [(n, one) for n, one in enumerate(onsets) if after <= one.time <= until]
-        if not inside:
-            rows.append((pin, "none", "", "", "", "", ""))
-        for n, one in inside[:most]:
-            lasted, separated = one.separation_time - one.time, math.isfinite(one.separation_time)
-            ends = "to the next impact" if n + 1 < len(onsets) else "to the end"
-            force = force_of_impact(result, pin, n)
-            rows.append((
-                pin, f"{n + 1} of {len(onsets)}", said(one.time, "s", 6),
-                said(lasted, "s", 4) if separated else ends,
-                said(one.speed, "m/s", 5), said(one.separation_velocity, "m/s", 5) if separated else "",
-                "" if force is None else said(force, "N", 4),
-            ))  # fmt: skip
-    return rows
-
-
-def force_of_impact(result: Result, pin: str, n: int) -> float | None:
-    """Largest force of a clearance pin at the records of an impact [N], n from 0 on; None without records."""
-    onsets, stem = result.onsets[pin], result.scenario.contact_stem(pin)
-    name = next((one for one in (f"{stem}{FORCE}", f"{stem}.normal_force") if one in result.channels), "")
-    end = onsets[n].separation_time
-    if not math.isfinite(end):
-        end = onsets[n + 1].time if n + 1 < len(onsets) else math.inf
-    during = (result.time >= onsets[n].time) & (result.time <= end)
-    if not name or not during.any():
-        return None
-    return float(result[name][during].max())
-
-
-def of_channels(result: Result, names: Iterable[str], after: float, until: float) -> list[Row]:
-    """Channels between two times [s]: name, unit, least, mean and greatest value with their signs, meaning.
-
-    Raises InputError if the run does not last between them.
-    """
-    rows: list[Row] = []
-    for name in names:
-        found = extent(result, name, after, until)
-        values = [found[word] for word in ("min", "mean", "max")]
-        size = max(map(abs, values))
-        unit = readable(found["unit"], size)
-        least, mean, greatest = (
-            f"{unit.scale * (value if abs(value) > ROUNDING * size else 0.0):.{DIGITS}g}" for value in values
-        )
-        if impulses_of(result, name, after, until):
-            least = greatest = "impulse"  # which has no finite peak
-        rows.append((name, unit.name, least, mean, greatest, found["meaning"]))
-    return rows
-
-
-def extent(result: Result, name: str, after: float, until: float) -> dict[str, Any]:
-    """Unit, meaning, and min, mean and max in SI of a channel between two times [s], from every step.
-
-    Raises InputError if the run does not last between them.
-    """
-    channel = result.channels[name]
-    window = result.window(name, after, until)
-    extreme = {"min": window.least[0], "mean": window.mean, "max": window.greatest[0]}
-    return {"unit": channel.unit, "meaning": channel.meaning} | extreme
-
-
-def telling(result: Result) -> list[str]:
-    """Names of the channels that are looked at first: forces, depths, moments, traced points, energy."""
-    points = {f"{point}.{axis}" for point in result.scenario.linkage.points for axis in "xyz"}
-    ends = (".force", ".depth", ".gap_upper", ".gap_lower", ".moment", ".balance")
-    return [name for name in result.channels if name.endswith(ends) or name in points]
-
-
-def with_error(found: Estimate) -> Row:
-    """A number, its error to its leading digits (empty if it is NaN), and the unit in which both are."""
-    unit = readable(found.unit, abs(found.value))
-    value, error = unit.scale * found.value, unit.scale * found.error
-    if math.isnan(error):
-        return f"{value:.{DIGITS}g}", "", unit.name
-    if not (math.isfinite(error) and error > 0.0):
-        return f"{value:.{DIGITS}g}", "not known" if error else "0", unit.name
-    digits = min(max(0, 1 - math.floor(math.log10(error))), 9)
-    return f"{value:.{digits}f}", f"{error:.1e}", unit.name
-
-
-def side_by_side(found: Sequence[Estimate | None], most: int = DIGITS) -> Row:
-    """Unit, and numbers of several runs in it with their errors, of at most so many digits; None: empty."""
-    there = [one for one in found if one is not None]
-    unit = readable(there[0].unit, max(abs(one.value) for one in there))
-    return unit.name, *("" if one is None else to_error(one, unit.scale, most) for one in found)
-
-
-def to_error(number: Estimate, scale: float, most: int = DIGITS) -> str:
-    """A number to the first digit of its error, and the error, unless that is below the shown digits."""
-    value, error = scale * number.value, scale * number.error
-    size = math.floor(math.log10(abs(value))) if value else 0
-    decimals = max(-math.floor(math.log10(error)), 0) if math.isfinite(error) and error > 0.0 else math.inf
-    if decimals > most - 1 - size:
-        return f"{value:.{most}g}"
-    return f"{value:.{decimals}f} ± {error:.{decimals}f}"
-
-
 def words(item: Any) -> str:
     """A value as its name and its parameters, in SI; settings that are none are left out."""
     if isinstance(item, Value):
@@ -320,12 +360,3 @@ def _pin(scenario: Scenario, name: str, pin: Pin) -> str:
         f"{getattr(scenario.linkage.pins[name], pin.bore)}, {words(contact.normal)}, "
         f"{words(contact.friction)}"
     )
-
-
-def _energies(result: Result) -> dict[str, float]:
-    """Energies of the whole run [J], as far as they were recorded."""
-    names = [f"energy.{name}" for name in ("work", "damping_loss", "friction_loss")]
-    found = {f"{name} at the end": float(result[name][-1]) for name in names if name in result.channels}
-    if "energy.balance" in result.channels:
-        found["energy not accounted for, largest"] = result.energy_error
-    return found

@@ -168,7 +168,7 @@ def test_a_force_without_limit_is_refused_and_its_impulse_printed(dimensions: in
         number = numbers[f"{force}.impulse_1"]
         assert (number.value, number.unit) == (pytest.approx(expected, rel=1e-5), "N s")
         assert number.error <= 1e-6 * expected
-        (row,) = summary.of_channels(result, [force], 0.0, math.inf)
+        (row,) = summary.channels_table(result, [force]).rows
         assert row[2::2][:2] == ("impulse", "impulse")
     asked = Record(numbers=("pin.rear_base.force.max_time", "pin.*.largest", "leg.force.largest"), after=0.0)
     assert all(name.endswith(".impulse_1") for name in noted(result, asked))

@@ -41,14 +41,15 @@ def test_impacts_are_told_by_corner(
     scene: Scenario, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     result = simulate(replace(scene, record_period=1e-4))
-    rows = {row[0]: row for row in summary.impacts(result)}
+    rows = {row[0]: row for row in summary.impacts_table("impacts", result).rows}
     assert set(rows) == {f"guide.{corner}" for corner in GUIDE.contacts()}
     assert rows["guide.upper_left"][1] == "1 of 1"
     assert rows["guide.upper_left"][6].endswith("N")
     assert rows["guide.lower_left"][1] == "none"
     assert "guide.guide.upper_left.largest_force" in measures(result, 0.0, math.inf)
     assert any(
-        name == "guide guide" and "ClearanceGuide" in said for name, said in summary.what_was_run(result)
+        name == "guide guide" and "ClearanceGuide" in said
+        for name, said in summary.what_is_run(result.scenario)
     )
     path = tmp_path / "run.h5"
     result.save(path)

@@ -8,7 +8,6 @@ from collections.abc import Mapping
 import numpy as np
 import pytest
 
-from support_exudyn.postprocessing import summary as summary
 from support_exudyn.postprocessing.shown_numbers import hardest_first, shown
 from support_exudyn.simulation.estimate import Estimate
 from tests import synthetic
@@ -38,7 +37,7 @@ TWO = of_pins(a=(90e3, 100e3), b=(80e3, 130e3))
 
 def test_the_hardest_hit_pin_comes_first_and_its_records_do_not_contradict() -> None:
     (found,) = shown([RUN], [TWO], 0.0, math.inf)
-    assert hardest_first(TWO) == ["b", "a"]
+    assert hardest_first(TWO) == ["pin.b", "pin.a"]
     assert [*found][:4] == [f"pin.{pin}.largest_force{end}" for pin in "ba" for end in ("", "_time")]
     assert not [name for name in found if ".force.largest" in name]
     assert "pin.a.force.mean" in found

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from support_exudyn import Onset, Result
-from support_exudyn.postprocessing import summary as summary
+from support_exudyn.postprocessing.shown_numbers import with_error
+from support_exudyn.postprocessing.summary import numbers_table
 from support_exudyn.simulation.estimate import Estimate
 from tests import synthetic
 from tests.cases.run_cases import FORCE, PIN, loose_support
@@ -33,14 +34,14 @@ def run(**channels: tuple[np.ndarray, str]) -> Result:
 
 
 def test_numbers_are_of_the_piece_that_was_asked_for() -> None:
-    rows = {row[0]: row[1:] for row in summary.came_out(run(), 0.4, 0.7)}
-    assert rows[f"{FORCE}.mean"] == ("2.5", "", "kN")
-    assert rows[f"{FORCE}.std"] == ("1.32288", "", "kN")  # of the line between records
-    assert rows[f"{FORCE}.largest"] == ("4", "", "kN")
-    assert rows[f"pin.{PIN}.largest_force, whole run"] == ("90", "", "kN")
-    assert {row[0]: row[1] for row in summary.came_out(run(), 0.0, 0.5)}[f"{FORCE}.mean"] == "1"
+    rows = {row[0]: row[1:] for row in numbers_table(run(), (0.4, 0.7)).rows}
+    assert rows[f"{FORCE}.mean"] == ("2.5", "kN")
+    assert rows[f"{FORCE}.std"] == ("1.32288", "kN")  # of the line between records
+    assert rows[f"{FORCE}.largest"] == ("4", "kN")
+    assert rows[f"pin.{PIN}.largest_force, whole run"] == ("90", "kN")
+    assert {row[0]: row[1] for row in numbers_table(run(), (0.0, 0.5)).rows}[f"{FORCE}.mean"] == "1"
     with pytest.raises(InputError, match="does not last between them"):
-        summary.came_out(run(), 7.0, 8.0)
+        numbers_table(run(), (7.0, 8.0))
 
 
 @pytest.mark.parametrize(
@@ -53,5 +54,5 @@ def test_numbers_are_of_the_piece_that_was_asked_for() -> None:
         (Estimate(2.0, math.inf, "N"), ("2", "not known", "N")),
     ],
 )
-def test_a_number_has_the_digits_of_its_error(found: Estimate, row: summary.Row) -> None:
-    assert summary.with_error(found) == row
+def test_a_number_has_the_digits_of_its_error(found: Estimate, row: tuple[str, ...]) -> None:
+    assert with_error(found) == row

@@ -17,7 +17,7 @@ from support_exudyn.postprocessing.comparing.measures import CONFIDENCE
 from support_exudyn.postprocessing.figures.selection import CLEARANCE
 from support_exudyn.postprocessing.figures.units import readable_change, said
 from support_exudyn.postprocessing.page.pieces import Sheet
-from support_exudyn.postprocessing.summary import to_error
+from support_exudyn.postprocessing.shown_numbers import to_error
 from support_exudyn.simulation.estimate import Estimate
 from user_forces.values.value import cleaned
 
