@@ -72,7 +72,7 @@ def lift(linkage: Linkage, width: Width) -> SpatialLinkage:
     Raises InputError if the linkage has cranks, or guides other than those of actuators, or a body has no
     width.
     """
-    pairs = _pairs(linkage, width)
+    pairs = pairs_of(linkage, width)
     _check(linkage, width, pairs)
     return SpatialLinkage(
         bodies={
@@ -91,7 +91,7 @@ def lift(linkage: Linkage, width: Width) -> SpatialLinkage:
     )
 
 
-def _pairs(linkage: Linkage, width: Width) -> dict[str, float]:
+def pairs_of(linkage: Linkage, width: Width) -> dict[str, float]:
     """Half the distance of all bodies that there are two of: those that are named, and those of actuators."""
     found = dict(width.pairs)
     for slide in linkage.slides.values():
@@ -155,7 +155,7 @@ def _body(body: Body, z: float, share: float, spread: float) -> SpatialBody:
 
 def _bearings(linkage: Linkage, width: Width, name: str) -> Iterator[tuple[str, Bearing]]:
     place = linkage.pins[name]
-    pairs = _pairs(linkage, width)
+    pairs = pairs_of(linkage, width)
     paired = [body for body in (place.first, place.second) if body in pairs]
     distances = {pairs[body] for body in paired}
     if len(distances) > 1:
@@ -196,7 +196,7 @@ def _guides(linkage: Linkage, width: Width, name: str) -> Iterator[tuple[str, Be
     """The rod of an actuator in its cylinder, left and right."""
     slide = linkage.slides[name]
     axis = (math.cos(slide.direction), math.sin(slide.direction), 0.0)
-    for side, z, share in copies(_pairs(linkage, width)[slide.body]):
+    for side, z, share in copies(pairs_of(linkage, width)[slide.body]):
         yield (
             name + side,
             Bearing(

@@ -16,7 +16,7 @@ from studies.common.paper_machine import oil_columns
 from support_exudyn import CubicStep, Held, Result, Scenario, SolverSettings, UniformSpeed, simulate
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.postprocessing.look.looks import look
-from support_exudyn.postprocessing.look.solid import Look
+from support_exudyn.postprocessing.look.shapes import Look
 from tests.cases.run_cases import loose_slider_crank, loose_support, support
 
 MOVING = UniformSpeed(stroke=0.05, start=0.0, end=0.2)  # [m] in [s]
@@ -124,9 +124,10 @@ def look_of(kind: str) -> Look:
 @cache
 def start_points(kind: str, body: str) -> np.ndarray:
     """Points of a body's surface in the start posture, in the order of the file."""
-    return np.concatenate([solid.mesh.vertices for solid in look_of(kind).solids if solid.body == body])
+    return np.concatenate([shape.mesh.vertices for shape in look_of(kind).of(body)])
 
 
 def moving_bodies(kind: str) -> list[str]:
     """Names of bodies that are drawn and move."""
-    return list(dict.fromkeys(solid.body for solid in look_of(kind).solids if solid.body != GROUND))
+    shapes = look_of(kind).shapes
+    return list(dict.fromkeys(one.body for one in shapes if one.strut is None and one.body != GROUND))

@@ -42,7 +42,7 @@ def test_a_block_and_its_guide_join_the_machine() -> None:
     assert {"rock.force", "rock.gap", "rock.y", "rock.velocity_y", "rock.impact_velocity"} <= set(
         scene.channel_definitions
     )
-    assert look(scene).solids  # a machine that says no more of it
+    assert look(scene).shapes  # a machine that says no more of it
 
 
 @pytest.mark.parametrize(

@@ -15,8 +15,7 @@ from support_exudyn.postprocessing.export.mesh_files import to_vtu, to_xdmf
 from support_exudyn.postprocessing.export.meshes import pin_points
 from support_exudyn.postprocessing.export.sampling import Sampling
 from support_exudyn.postprocessing.export.tables import to_csv, to_hdf5
-from support_exudyn.postprocessing.look.poses import Poses, moving_parts
-from support_exudyn.postprocessing.render.pin_views import pin_view
+from support_exudyn.postprocessing.render.pin_views import pin_views
 from tests.cases.export_cases import (
     Read,
     by_vtk,
@@ -120,8 +119,8 @@ def test_velocities_are_those_of_the_channels(exported: Exported, machine: list[
 
 
 def test_every_triangle_has_a_body_and_a_role(exported: Exported, machine: list[Read]) -> None:
-    parts = moving_parts(look_of(exported.kind), Poses(exported.result))
-    expected = [(part.body, part.role.value) for part in parts for _ in part.mesh.faces]
+    shapes = look_of(exported.kind).shapes
+    expected = [(shape.body, shape.role.value) for shape in shapes for _ in shape.mesh.faces]
     bodies, roles = exported.names("body"), exported.names("role")
     for step in machine:
         data = zip(step.cell_data["body"].tolist(), step.cell_data["role"].tolist(), strict=True)
@@ -132,15 +131,19 @@ def test_every_triangle_has_a_body_and_a_role(exported: Exported, machine: list[
 
 def test_columns_reach_from_foot_to_head(exported: Exported, machine: list[Read]) -> None:
     result, names = exported.result, exported.names("body")
-    for strut in look_of(exported.kind).struts:
+    parts = [shape for shape in look_of(exported.kind).shapes if shape.strut]
+    for cylinder, rod in zip(parts[::2], parts[1::2], strict=True):
+        strut = cylinder.strut
+        assert strut is not None
+        assert (strut, cylinder.end, rod.end) == (rod.strut, 0, 1)
         # in the plane a pair is drawn twice and has the channels of one
         channel = strut.name if f"{strut.name}.length" in result.channels else strut.name.rpartition("_")[0]
         for step, record in zip(machine, exported.records, strict=True):
             ends = []
-            for part, mesh in (("cylinder", strut.cylinder), ("rod", strut.rod)):
-                now = step.points[points_of(step, names.index(f"{strut.name} {part}"))]
-                turn, shift = rigid(np.asarray(mesh.vertices), now)
-                assert now == pytest.approx(mesh.vertices @ turn.T + shift, abs=ROUNDING)
+            for part in (cylinder, rod):
+                now = step.points[points_of(step, names.index(part.body))]
+                turn, shift = rigid(np.asarray(part.mesh.vertices), now)
+                assert now == pytest.approx(part.mesh.vertices @ turn.T + shift, abs=ROUNDING)
                 ends.append(shift)
             way = ends[1] - ends[0]
             assert np.linalg.norm(way) == pytest.approx(result[f"{channel}.length"][record], abs=ROUNDING)
@@ -219,9 +222,8 @@ def test_a_loose_pin_is_at_its_journal_and_pressed_back_into_its_bore(bore: str)
     scenario = loose_support(1.5, 0.0, duration=0.06)
     pin = dataclasses.replace(scenario.clearance_pins[PIN], bore=bore)
     result = simulate(dataclasses.replace(scenario, pins={PIN: pin}))
-    points, view = pin_points(result), pin_view(result, PIN)
+    points, (view,) = pin_points(result), pin_views(result, PIN)
     assert points is not None
-    assert view is not None
     assert view.bore is not None
     number = points.names["pin"].index(PIN)
     pressed = 0

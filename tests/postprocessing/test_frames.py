@@ -13,10 +13,9 @@ from PIL.ImageColor import getrgb
 from support_exudyn import Result
 from support_exudyn.postprocessing.figures.selection import nearest
 from support_exudyn.postprocessing.figures.style import CONTACT, FLIGHT
-from support_exudyn.postprocessing.render import panels
-from support_exudyn.postprocessing.render.panels import Inset
-from support_exudyn.postprocessing.render.pin_views import Bore, PinView, pin_view
-from support_exudyn.postprocessing.render.sheet import Canvas
+from support_exudyn.postprocessing.render.canvas import Canvas
+from support_exudyn.postprocessing.render.frame import JOURNAL, RING, Inset
+from support_exudyn.postprocessing.render.pin_views import Bore, PinView, pin_views
 from tests import synthetic
 from tests.cases.run_cases import PIN, loose_support
 
@@ -47,8 +46,7 @@ def pressed(x: float, y: float, force: tuple[float, float], bore: str = "first")
 
 
 def view(*arguments: Any) -> PinView:
-    found = pin_view(pressed(*arguments))
-    assert found is not None
+    (found,) = pin_views(pressed(*arguments))
     return found
 
 
@@ -81,10 +79,10 @@ BOX = (0, 0, 286, 286)
 
 def inset_of(bore: Bore, record: int, force: tuple[float, float] = (0.0, 0.0)) -> tuple[Image.Image, Inset]:
     """The inset at a record."""
-    sheet, found = Canvas(286, 286), Inset(BOX, bore, 1.0)
-    found.draw_still(sheet)
+    sheet = Canvas(286, 286)
+    found = Inset(sheet, BOX, bore, 1.0)
     sheet.hold()
-    found.draw(sheet, record, 0, force)
+    found.draw(record, 0, force)
     return Image.fromarray(sheet.frame()), found
 
 
@@ -96,7 +94,7 @@ def drawn(shown: PinView, force: tuple[float, float] = (0.0, 0.0)) -> tuple[Inse
     return found, picture
 
 
-RADIUS = 0.5 * (286 - 62) / panels.RING  # of the bore in the picture
+RADIUS = 0.5 * (286 - 62) / RING  # of the bore in the picture
 PIXELS = (
     10.0 * RADIUS / BEARING.bore_radius
 )  # 0.2 of the bore's radius is 8.7 times the clearance: 10 are shown
@@ -109,7 +107,7 @@ def test_the_journal_is_where_it_is_with_its_clearance_enlarged(x: float, y: flo
     mark = pixels_of(picture, FLIGHT).mean(axis=0)
     # forward is to the right, up is up; the mark's middle is rounded to pixels
     assert mark - found.centre == pytest.approx([x * PIXELS, -y * PIXELS], abs=0.6)
-    low, high = (f(pixels_of(picture, panels.JOURNAL), axis=0) for f in (np.min, np.max))
+    low, high = (f(pixels_of(picture, JOURNAL), axis=0) for f in (np.min, np.max))
     wide = 2.0 * (RADIUS - PIXELS * BEARING.clearance)
     assert high - low + 1.0 == pytest.approx([wide, wide], abs=2.5)  # smooth edges have other colours
     assert 0.5 * (low + high) == pytest.approx(mark, abs=1.0)

@@ -20,11 +20,10 @@ from support_exudyn.model.loads.roofs import Roof
 from support_exudyn.postprocessing.export.meshes import machine_mesh
 from support_exudyn.postprocessing.figures.style import CONTACT, FLIGHT
 from support_exudyn.postprocessing.render import render, still
+from support_exudyn.postprocessing.render.canvas import INK, Canvas
 from support_exudyn.postprocessing.render.frame import Layout
 from support_exudyn.postprocessing.render.scene import RenderedScene
-from support_exudyn.postprocessing.render.sheet import INK, Canvas
-from support_exudyn.postprocessing.render.sheet import Image as Picture
-from support_exudyn.postprocessing.render.stage import Camera, MeshItem, Stage, direction_of_view
+from support_exudyn.postprocessing.render.stage import Camera, MeshItem, Picture, Stage, direction_of_view
 from user_forces import InputError
 
 SIZE = (320, 180)
@@ -97,7 +96,7 @@ def test_a_roof_that_presses_is_drawn_where_it_is() -> None:
     )
     run = simulate(replace(scenario, loads={"roof": roof}))
     scene = RenderedScene(run)
-    top = max(solid.mesh.bounds[1, 1] for solid in scene.look.solids if solid.body == "canopy")
+    top = max(shape.mesh.bounds[1, 1] for shape in scene.look.of("canopy"))
     assert scene.roof(0) == pytest.approx(top + 0.2)
     assert scene.roof(run.time.size - 1) == pytest.approx(top + 0.15)
     assert scene.surroundings is not None
@@ -124,7 +123,7 @@ def test_surfaces_are_put_where_the_exported_mesh_has_them(bouncing: Result, spa
         expected = machine_mesh(run).frame(record).points
         placed = [
             mesh_item.mesh.vertices @ turn.T + place
-            for mesh_item, (place, turn) in zip(scene.props(), scene.places(record), strict=True)
+            for mesh_item, (place, turn) in zip(scene.items(), scene.places(record), strict=True)
         ]
         # rounding of places of some metres
         assert np.concatenate(placed)[: len(expected)] == pytest.approx(expected, abs=1e-12)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
@@ -17,7 +16,7 @@ from support_exudyn import CubicStep, CylinderAndRod, OwnBody, Scenario, referen
 from support_exudyn.machines.four_column_support import PIVOTS, HydraulicSupport
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.postprocessing.look.looks import look
-from support_exudyn.postprocessing.look.solid import Look, Role
+from support_exudyn.postprocessing.look.shapes import Role
 from tests.often import often
 from user_forces import InputError
 
@@ -44,14 +43,6 @@ SCENES = {
 }
 
 
-def surfaces(shown: Look) -> Iterator[tuple[str, Trimesh]]:
-    for solid in shown.solids:
-        yield solid.name, solid.mesh
-    for strut in shown.struts:
-        yield f"{strut.name}, cylinder", strut.cylinder
-        yield f"{strut.name}, rod", strut.rod
-
-
 @pytest.fixture(params=SCENES)
 def scene(request: pytest.FixtureRequest) -> Scenario:
     return SCENES[request.param]
@@ -60,7 +51,7 @@ def scene(request: pytest.FixtureRequest) -> Scenario:
 def test_pins_are_where_the_machine_has_them(scene: Scenario) -> None:
     shown = look(scene)
     for name in ("rear_base", "front_base", "rear_shield", "front_shield", "shield_canopy"):
-        pins = [solid for solid in shown.solids if solid.name.startswith(f"pin_{name}")]
+        pins = [shape for shape in shown.shapes if shape.name.startswith(f"pin_{name}")]
         assert pins
         for pin in pins:
             assert pin.role is Role.PIN
@@ -72,12 +63,12 @@ def test_pins_are_where_the_machine_has_them(scene: Scenario) -> None:
 @pytest.mark.parametrize("name", ["in space", "columns in two bodies, in space"])
 def test_left_and_right_are_on_the_sides_that_the_machine_has_them(name: str) -> None:
     shown, space = look(SCENES[name]), SCENES[name].space
-    sided = [solid for solid in shown.solids if solid.body.endswith(("_left", "_right"))]
-    assert {"front_link_left", "front_link_right"} <= {solid.body for solid in sided}
-    for solid in sided:
-        beside = space.bodies[solid.body].centre[2]
-        assert (solid.mesh.bounds[:, 2].mean() > 0.0) == (beside > 0.0), solid.name
-    for strut in shown.struts:
+    sided = [shape for shape in shown.shapes if shape.body.endswith(("_left", "_right"))]
+    assert {"front_link_left", "front_link_right"} <= {shape.body for shape in sided}
+    for shape in sided:
+        beside = space.bodies[shape.body].centre[2]
+        assert (shape.mesh.bounds[:, 2].mean() > 0.0) == (beside > 0.0), shape.name
+    for strut in (shape.strut for shape in shown.shapes if shape.strut):
         assert (strut.foot_point[2] > 0.0) == strut.name.endswith("_right")  # as of bodies
     assert space.bodies["front_link_left"].centre[2] < 0.0 < space.bodies["front_link_right"].centre[2]
 
@@ -87,7 +78,7 @@ def test_a_loose_pin_moves_with_the_body_that_has_its_journal(bore: str, body: s
     with_clearance = SCENES["clearance pin"]
     pin = replace(with_clearance.clearance_pins["rear_base"], bore=bore)
     shown = look(replace(with_clearance, pins={"rear_base": pin}))
-    (journal,) = [solid for solid in shown.solids if solid.name == "pin_rear_base"]
+    (journal,) = [shape for shape in shown.shapes if shape.name == "pin_rear_base"]
     assert journal.body == body
 
 
@@ -99,14 +90,16 @@ def test_rods_stay_in_their_cylinders_over_the_rise(rise: float) -> None:
     scenario = (
         replace(PLAIN, drive=CubicStep(stroke=rise)) if rise else replace(PLAIN, drive=CubicStep(stroke=1e-6))
     )
-    machine, struts = reference_support(), look(scenario).struts
+    machine = reference_support()
+    parts = [shape for shape in look(scenario).shapes if shape.strut]
     for share in np.linspace(0.0, 1.0, 11):
         posture = machine.extended(share * rise)
         assert posture is not None
         reached = dict(zip(("front_column", "rear_column"), machine.column_lengths(posture), strict=True))
-        for strut in struts:
-            length = reached[strut.name.removesuffix("_left").removesuffix("_right")]
-            check_rod(strut.cylinder, strut.rod, length)
+        for cylinder, rod in zip(parts[::2], parts[1::2], strict=True):
+            assert cylinder.strut is not None
+            length = reached[cylinder.strut.name.removesuffix("_left").removesuffix("_right")]
+            check_rod(cylinder.mesh, rod.mesh, length)
 
 
 def check_rod(cylinder: Trimesh, rod: Trimesh, length: float) -> None:
@@ -153,7 +146,7 @@ def test_other_pivots_give_closed_surfaces_too(shifts: dict[str, tuple[float, fl
         scenario = Scenario(machine=scaled(1.0, shifts), drive=CubicStep(stroke=0.1), duration=5.0)
     except (InputError, ValueError):  # links that do not reach each other
         assume(False)
-    for name, mesh in surfaces(look(scenario)):
-        assert mesh.is_watertight, name
-        assert mesh.volume > 0.0, name
-        assert np.isfinite(mesh.vertices).all(), name
+    for shape in look(scenario).shapes:
+        assert shape.mesh.is_watertight, shape.name
+        assert shape.mesh.volume > 0.0, shape.name
+        assert np.isfinite(shape.mesh.vertices).all(), shape.name

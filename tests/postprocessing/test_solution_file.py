@@ -25,9 +25,7 @@ from support_exudyn.files import save_scenario
 from support_exudyn.formulations.exudyn.scene.scene_builder import build
 from support_exudyn.formulations.exudyn.solver import solver
 from support_exudyn.postprocessing.export.solution_file import read_solution, rows
-from support_exudyn.postprocessing.look.poses import Poses, strut_frame
-from support_exudyn.postprocessing.look.solid import solids_of
-from support_exudyn.postprocessing.viewer import viewer_model
+from support_exudyn.postprocessing.look.poses import Poses
 from support_exudyn.postprocessing.viewer.viewer_model import POSITION, SHOWN, model_for_viewer
 from tests.cases.run_cases import loose_slider_crank, loose_support, support
 
@@ -160,9 +158,6 @@ def test_channels_that_it_needs_are_asked_for_before_the_run(
     assert [one.name for one in tmp_path.iterdir()] == ["a.toml"]
 
 
-# --- what is drawn changes nothing of the model ---
-
-
 # --- what is drawn is where the run was ---
 
 
@@ -174,26 +169,21 @@ def test_surfaces_and_columns_are_where_the_run_was(name: str) -> None:
     try:
         SetSolutionState(shown.scene.mbs, rows(result, shown.scene), record, SHOWN)
         for body, item in shown.scene.bodies.items():
-            for solid in solids_of(shown.look, body):
-                drawn = viewer_model._of_solid(solid, viewer_model._centre(shown.scene, body))
+            for shape, drawn in zip(shown.look.of(body), shown.fixed(body), strict=True):
                 points = np.reshape(drawn["points"], (-1, 3))
                 ends = np.array([np.argmin(points, axis=0), np.argmax(points, axis=0)]).ravel()
                 there = [
                     shown.scene.mbs.GetObjectOutputBody(item.object, POSITION, points[k], SHOWN) for k in ends
                 ]
-                where = (
-                    poses.of(body).frame(record).points(np.asarray(solid.mesh.vertices) - poses.of(body).start)
-                )
-                # each is a corner of the solid, where its body was; rounding of places of some metres
+                where = poses.frame(shape, record).points(np.asarray(shape.mesh.vertices))
+                # each is a corner of the shape, where its body was; rounding of places of some metres
                 apart = np.linalg.norm(np.array(there)[:, None] - where[None], axis=-1).min(axis=1)
-                assert apart.max() < 1e-12, solid.name
-        for strut in shown.look.struts:
-            cylinder, rod = (
-                np.reshape(part()["points"], (-1, 3)) for part in viewer_model._parts(shown, strut)
-            )
-            for n, (points, mesh) in enumerate(((cylinder, strut.cylinder), (rod, strut.rod))):
-                where = strut_frame(strut, poses, n, record).points(np.asarray(mesh.vertices))
-                for end in (np.min, np.max):
-                    assert end(points, axis=0) == pytest.approx(end(where, axis=0), abs=1e-12)
+                assert apart.max() < 1e-12, shape.name
+        parts = [shape for shape in shown.look.shapes if shape.strut]
+        for shape, part in zip(parts, shown.moving(), strict=True):
+            points = np.reshape(part()["points"], (-1, 3))
+            where = poses.frame(shape, record).points(np.asarray(shape.mesh.vertices))
+            for end in (np.min, np.max):
+                assert end(points, axis=0) == pytest.approx(end(where, axis=0), abs=1e-12)
     finally:
         shown.scene.release()

@@ -1,11 +1,12 @@
 """Moving meshes of a run for other programs: XDMF with HDF5, and VTU with PVD, by meshio.
 
-Everything is in SI; names of fields end in their unit. What is written are records of the run with their times,
-nothing between them.
+Everything is in SI; names of fields end in their unit. Records of the run are written with their times, nothing
+between them.
 """
 
+import csv
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -14,8 +15,7 @@ import h5py
 import meshio
 from meshio.xdmf import TimeSeriesWriter
 
-from support_exudyn.files.whole_file import contents
-from support_exudyn.postprocessing.export.meshes import MeshSeries, meshes_of, write_names
+from support_exudyn.postprocessing.export.meshes import MeshSeries, meshes_of
 from support_exudyn.postprocessing.export.sampling import Sampling
 from support_exudyn.postprocessing.export.whole_set import whole_set
 from support_exudyn.scene.contract import Progress, silent
@@ -24,8 +24,8 @@ from user_forces.values.value import InputError
 
 MESHES = Sampling(frames_per_second=25.0)
 MOST_VALUES = 500_000_000  # in the HDF5 file of an XDMF; 4 GB before compression
-LARGEST_INDEX = 1_000_000_000  # bytes
 COMPRESSION: dict[str, Any] = {"compression": "gzip", "compression_opts": 4, "shuffle": True}
+STEP = re.compile(r"(machine|pins)(_\d{5,}\.vtu|\.pvd)")
 
 
 def to_xdmf(
@@ -69,76 +69,28 @@ def to_xdmf(
         )
     records = sampling.records(result.time)
     series = meshes_of(result, records[0])
+    values = sum(mesh.values_per_step for mesh in series)
+    if len(records) * values > MOST_VALUES:
+        raise InputError(
+            f"{len(records)} steps of {values} numbers each: allowed in one XDMF file: {MOST_VALUES:g}, "
+            f"here {MOST_VALUES // values} steps; choose fewer frames a second or a shorter time, or VTU"
+        )
     store, table = f"{path.stem}_mesh.h5", f"{path.stem}_names.csv"
     indexes = [f"{path.stem}.xdmf", f"{path.stem}_pins.xdmf"][: len(series)]
-    _check_room(series, len(records))
-    earlier = f"{path.stem}_pins.xdmf"  # which an earlier export of another machine may have left
-    stale = {earlier} if refers(path.parent / earlier, store) else set()
-    with whole_set(path.parent, (store, table), indexes, stale) as folder:
+    with whole_set(path.parent, (store, table, *indexes)) as folder:
         # made in memory: on a full disk HDF5 would end the whole process
         with h5py.File(store, "w", driver="core", backing_store=False) as file:
             writers = [MovingMeshWriter(mesh, file, store) for mesh in series]
-            for step, record in enumerate(records):
+            for step, record in enumerate(records, 1):
                 for writer in writers:
                     writer.write_step(float(result.time[record]), record)
-                progress((step + 1) / len(records))
+                progress(step / len(records))
             file.flush()
             (folder / store).write_bytes(file.id.get_file_image())
-        write_names(folder / table, series)
+        _write_names(folder / table, series)
         for writer, index in zip(writers, indexes, strict=True):
-            writer.write_index(folder / index)
+            _write_xml(folder / index, writer.xdmf_file)
     return tuple(path.parent / name for name in (*indexes, store, table))
-
-
-def to_vtu(
-    result: Result, folder: str | Path, sampling: Sampling = MESHES, progress: Progress = silent
-) -> tuple[Path, ...]:
-    """The machine and its pins as a VTU file per step, with PVD files that tell their times, for ParaView.
-
-    In the folder: machine.pvd and pins.pvd, which ParaView opens; machine_00000.vtu and so on; names.csv.
-    Fields are those of `to_xdmf`. Steps of an earlier export are replaced, and removed if they were more; other
-    files stay.
-
-    Arguments and errors as with `to_xdmf`. Returns the paths of the PVD files, then of the table and the steps.
-    """
-    folder = Path(folder)
-    records = sampling.records(result.time)
-    series = meshes_of(result, records[0])
-    steps = {mesh.name: [f"{mesh.name}_{step:05d}.vtu" for step in range(len(records))] for mesh in series}
-    files = ["names.csv", *(name for of_mesh in steps.values() for name in of_mesh)]
-    indexes = [f"{mesh.name}.pvd" for mesh in series]
-    stale = earlier_steps(folder, "machine") | earlier_steps(folder, "pins")
-    with whole_set(folder, files, indexes, stale) as temporary:
-        for step, record in enumerate(records):
-            for mesh in series:
-                write_step(temporary / steps[mesh.name][step], mesh, record)
-            progress((step + 1) / len(records))
-        write_names(temporary / "names.csv", series)
-        times = [float(time) for time in result.time[records]]
-        for mesh in series:
-            write_index(temporary / f"{mesh.name}.pvd", steps[mesh.name], times)
-    return tuple(folder / name for name in (*indexes, *files))
-
-
-def _check_room(series: list[MeshSeries], steps: int) -> None:
-    """Raise InputError if so many steps do not fit into memory."""
-    values = sum(mesh.values_per_step for mesh in series)
-    if steps * values > MOST_VALUES:
-        raise InputError(
-            f"{steps} steps of {values} numbers each: allowed in one XDMF file: {MOST_VALUES:g} numbers, "
-            f"here {MOST_VALUES // values} steps; choose fewer frames a second or a shorter time, or VTU"
-        )
-
-
-# --- XDMF ---
-
-
-def refers(path: Path, store: str) -> bool:
-    """The answer whether a file is one of `MovingMeshWriter`, whose data are in the HDF5 file of this name."""
-    try:
-        return f">{store}:/".encode() in contents(path, LARGEST_INDEX)
-    except (OSError, InputError):
-        return False
 
 
 class MovingMeshWriter(TimeSeriesWriter):  # type: ignore[misc]  # meshio has no types
@@ -156,9 +108,7 @@ class MovingMeshWriter(TimeSeriesWriter):  # type: ignore[misc]  # meshio has no
     def __init__(self, series: MeshSeries, store: h5py.File, store_name: str) -> None:
         super().__init__(f"{series.name}.xdmf")
         self.collection.set("Name", series.name)
-        self.series = series
-        self.h5_file = store
-        self.h5_filename = store_name
+        self.series, self.h5_file, self.h5_filename = series, store, store_name
         self._constants: list[ElementTree.Element] = []
 
     def write_step(self, time: float, record: int) -> None:
@@ -183,15 +133,38 @@ class MovingMeshWriter(TimeSeriesWriter):  # type: ignore[misc]  # meshio has no
         self.h5_file.create_dataset(name, data=data, **COMPRESSION)
         return f"{self.h5_filename}:/{name}"
 
-    def write_index(self, path: Path) -> None:
-        """Write the XML of all steps so far."""
-        write_xml(path, self.xdmf_file)
+
+def to_vtu(
+    result: Result, folder: str | Path, sampling: Sampling = MESHES, progress: Progress = silent
+) -> tuple[Path, ...]:
+    """The machine and its pins as a VTU file per step, with PVD files that tell their times, for ParaView.
+
+    In the folder: machine.pvd and pins.pvd, which ParaView opens; machine_00000.vtu and so on; names.csv.
+    Fields are those of `to_xdmf`. Steps of an earlier export are replaced, and removed if they were more; other
+    files stay.
+
+    Arguments and errors as with `to_xdmf`. Returns the paths of the PVD files, then of the table and the steps.
+    """
+    folder = Path(folder)
+    records = sampling.records(result.time)
+    series = meshes_of(result, records[0])
+    steps = {mesh.name: [f"{mesh.name}_{step:05d}.vtu" for step in range(len(records))] for mesh in series}
+    files = ["names.csv", *(name for of_mesh in steps.values() for name in of_mesh)]
+    indexes = [f"{mesh.name}.pvd" for mesh in series]
+    stale = {path.name for path in folder.glob("*") if STEP.fullmatch(path.name)}
+    with whole_set(folder, [*files, *indexes], stale) as temporary:
+        for step, record in enumerate(records):
+            for mesh in series:
+                _write_step(temporary / steps[mesh.name][step], mesh, record)
+            progress((step + 1) / len(records))
+        _write_names(temporary / "names.csv", series)
+        times = [float(time) for time in result.time[records]]
+        for mesh in series:
+            _write_pvd(temporary / f"{mesh.name}.pvd", steps[mesh.name], times)
+    return tuple(folder / name for name in (*indexes, *files))
 
 
-# --- VTU ---
-
-
-def write_step(path: Path, series: MeshSeries, record: int) -> None:
+def _write_step(path: Path, series: MeshSeries, record: int) -> None:
     """Write the mesh at a record as VTU."""
     frame = series.frame(record)
     meshio.Mesh(
@@ -202,28 +175,26 @@ def write_step(path: Path, series: MeshSeries, record: int) -> None:
     ).write(path, file_format="vtu")
 
 
-def earlier_steps(folder: Path, series: str) -> set[str]:
-    """Files of an earlier export, as the index of a series names them; none if there is no such index."""
-    index = f"{series}.pvd"
-    try:
-        text = contents(folder / index, LARGEST_INDEX).decode("utf-8", "replace")
-    except (OSError, InputError):
-        return set()
-    steps = re.findall(rf'file="({series}_\d{{5,}}\.vtu)"', text)
-    return {index, *steps} if steps else set()
-
-
-def write_index(path: Path, files: Sequence[str], times: Sequence[float]) -> None:
-    """Write a PVD file: which file of its folder is of which time [s]."""
+def _write_pvd(path: Path, files: Sequence[str], times: Sequence[float]) -> None:
+    """Write which file of a folder is of which time [s]."""
     root = ElementTree.Element("VTKFile", type="Collection", version="0.1")
     collection = ElementTree.SubElement(root, "Collection")
     for file, time in zip(files, times, strict=True):
         ElementTree.SubElement(collection, "DataSet", timestep=repr(time), part="0", file=file)
-    write_xml(path, root)
+    _write_xml(path, root)
 
 
-def write_xml(path: Path, root: ElementTree.Element) -> None:
-    """Write XML in lines that can be read."""
+def _write_xml(path: Path, root: ElementTree.Element) -> None:
     tree = ElementTree.ElementTree(root)
     ElementTree.indent(tree, " ")
     tree.write(path, encoding="utf-8", xml_declaration=True)
+
+
+def _write_names(path: Path, meshes: Iterable[MeshSeries]) -> None:
+    """Write what the numbers of meshes stand for as CSV with the columns field, id, name."""
+    with path.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(("field", "id", "name"))
+        for mesh in meshes:
+            for name, known in mesh.names.items():
+                writer.writerows((name, number, one) for number, one in enumerate(known))

@@ -1,9 +1,7 @@
 """The machine of a run as a surface mesh that moves, and its pins as points, with names for their numbers."""
 
-import csv
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -12,8 +10,8 @@ import numpy.typing as npt
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.postprocessing.look.looks import look
-from support_exudyn.postprocessing.look.poses import Poses, moving_parts, placed_pins
-from support_exudyn.postprocessing.look.solid import Role
+from support_exudyn.postprocessing.look.poses import Poses, placed_pins
+from support_exudyn.postprocessing.look.shapes import Role
 from support_exudyn.simulation.result import Result
 
 Field = npt.NDArray[Any]
@@ -55,20 +53,10 @@ class MeshSeries:
         return frame.points.size + sum(data.size for data in frame.data.values())
 
 
-def write_names(path: Path, meshes: Iterable[MeshSeries]) -> None:
-    """Write what the numbers of meshes stand for as CSV with the columns field, id, name."""
-    with path.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(("field", "id", "name"))
-        for mesh in meshes:
-            for name, known in mesh.names.items():
-                writer.writerows((name, number, one) for number, one in enumerate(known))
-
-
 def meshes_of(result: Result, first: int) -> list[MeshSeries]:
     """All there is to write of a run: the machine, then its pins if it has any.
 
-    first: the record that displacements are seen from.
+    first: the record that displacements are measured from.
 
     Raises InputError if the run has not recorded where its bodies are and how fast they move, or forces, depths
     and slips of its pins.
@@ -82,31 +70,31 @@ def machine_mesh(result: Result, first: int = 0) -> MeshSeries:
 
     Data of points: velocity_m_s, and displacement_m since the record `first`. Of triangles: body and role.
     """
-    parts = moving_parts(look(result.scenario), Poses(result))
-    bodies = list(dict.fromkeys([GROUND, *(part.body for part in parts)]))
+    shapes, poses = look(result.scenario).shapes, Poses(result)
+    bodies = list(dict.fromkeys([GROUND, *(shape.body for shape in shapes)]))
 
     def points(record: int) -> Series:
-        return np.concatenate([part.frame(record).points(part.mesh.vertices) for part in parts])
+        return np.concatenate([poses.frame(one, record).points(one.mesh.vertices) for one in shapes])
 
     start = points(first)
 
     def frame(record: int) -> MeshFrame:
-        velocities = [part.frame(record).velocities(part.mesh.vertices) for part in parts]
+        velocities = [poses.frame(one, record).velocities(one.mesh.vertices) for one in shapes]
         places = points(record)
         return MeshFrame(places, {"velocity_m_s": np.concatenate(velocities), "displacement_m": places - start})
 
-    firsts = np.cumsum([0, *(len(part.mesh.vertices) for part in parts[:-1])])
-    counts = [len(part.mesh.faces) for part in parts]
+    firsts = np.cumsum([0, *(len(one.mesh.vertices) for one in shapes[:-1])])
+    counts = [len(one.mesh.faces) for one in shapes]
     numbers = {
-        "body": [bodies.index(part.body) for part in parts],
-        "role": [ROLES.index(part.role) for part in parts],
+        "body": [bodies.index(one.body) for one in shapes],
+        "role": [ROLES.index(one.role) for one in shapes],
     }
     return MeshSeries(
-        name="machine",
-        cell_type="triangle",
-        cells=np.concatenate([p.mesh.faces + n for p, n in zip(parts, firsts, strict=True)]).astype(np.int32),
-        frame=frame,
-        names={"body": bodies, "role": [role.value for role in ROLES]},
+        "machine",
+        "triangle",
+        np.concatenate([s.mesh.faces + n for s, n in zip(shapes, firsts, strict=True)]).astype(np.int32),
+        frame,
+        {"body": bodies, "role": [role.value for role in ROLES]},
         cell_constants={name: np.repeat(of, counts).astype(np.int32) for name, of in numbers.items()},
     )
 
@@ -121,37 +109,31 @@ def pin_points(result: Result) -> MeshSeries | None:
     pins, poses = placed_pins(result.scenario), Poses(result)
     if not pins:
         return None
-    zero, unknown = np.zeros(result.time.size), np.full(result.time.size, np.nan)
+    unknown, axes = np.full(result.time.size, np.nan), "xyz"[: result.scenario.dimensions]
+    is_loose = [pin.with_clearance is not None for pin in pins]
 
     def channel(name: str) -> Series:
         return result.recorded(name, "pins are written with it")
 
-    ends = [pin.first if pin.with_clearance is None else pin.journal for pin in pins]
+    ends = [pin.journal if loose else pin.first for pin, loose in zip(pins, is_loose, strict=True)]
     places = np.array([poses.of(end.body).path(end.point) for end in ends])
-    axes = "xyz" if result.scenario.dimensions == 3 else "xy"
-    forces = np.array([
-        np.column_stack([channel(f"pin.{pin.name}.force_{axis}") if axis in axes else zero for axis in "xyz"])
-        for pin in pins
-    ])  # fmt: skip
+    forces = np.zeros_like(places)
+    for k, axis in enumerate(axes):
+        forces[:, :, k] = [channel(f"pin.{pin.name}.force_{axis}") for pin in pins]
     depths, slips = (
-        np.array([unknown if pin.with_clearance is None else channel(f"pin.{pin.name}.{what}") for pin in pins])
+        np.array([
+            channel(f"pin.{pin.name}.{what}") if loose else unknown
+            for pin, loose in zip(pins, is_loose, strict=True)
+        ])
         for what in ("depth", "slip")
-    )
+    )  # fmt: skip
 
     def frame(record: int) -> MeshFrame:
         force = forces[:, record]
         data = {"force_N": force, "force_magnitude_N": np.linalg.norm(force, axis=1)}
-        return MeshFrame(
-            places[:, record], {**data, "depth_m": depths[:, record], "slip_m_s": slips[:, record]}
-        )
+        data |= {"depth_m": depths[:, record], "slip_m_s": slips[:, record]}
+        return MeshFrame(places[:, record], data)
 
     numbers = np.arange(len(pins), dtype=np.int32)
-    with_clearance = np.array([pin.with_clearance is not None for pin in pins], dtype=np.int32)
-    return MeshSeries(
-        name="pins",
-        cell_type="vertex",
-        cells=numbers[:, None],
-        frame=frame,
-        names={"pin": [pin.name for pin in pins]},
-        point_constants={"pin": numbers, "with_clearance": with_clearance},
-    )
+    constants = {"pin": numbers, "with_clearance": np.array(is_loose, dtype=np.int32)}
+    return MeshSeries("pins", "vertex", numbers[:, None], frame, {"pin": [pin.name for pin in pins]}, constants)

@@ -24,6 +24,7 @@ from support_exudyn.formulations.exudyn.scene.scene_builder import build
 from support_exudyn.mechanics.body_motion import UNTURNED, parameter_rates
 from support_exudyn.mechanics.channels import chosen
 from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.postprocessing.figures.selection import machine_name
 from support_exudyn.postprocessing.look.poses import WHY, Poses
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.result import Result
@@ -88,19 +89,14 @@ def save_solution(result: Result, path: str | Path) -> Path:
     Raises InputError if the run has not recorded where its bodies are; OSError that names the file if it cannot
     be written, and an older one is then as it was.
     """
-    with whole_file(path) as temporary:
-        _write(result, temporary)
-    return Path(path)
-
-
-def _write(result: Result, path: Path) -> None:
     scene = build(result.scenario)
     try:
         solution = rows(result, scene)
-        with quiet_engine():
-            _write_rows(scene.mbs, _settings(result, path), solution)
+        with whole_file(path) as temporary, quiet_engine():
+            _write_rows(scene.mbs, _settings(result, temporary), solution)
     finally:
         scene.release()
+    return Path(path)
 
 
 def _write_rows(mbs: Any, settings: Any, solution: Solution) -> None:
@@ -131,7 +127,7 @@ def _settings(result: Result, path: Path) -> Any:
     file.writeInitialValues = False  # they are the first row
     # what the model has of these is not of the rows
     file.export.accelerations = file.export.algebraicCoordinates = file.export.dataCoordinates = False
-    machine = type(result.scenario.machine).__name__
+    machine = machine_name(result.scenario)
     file.information = f"{machine}, {result.scenario.formulation}; channels and scenario are in the run's file"
     return settings
 
@@ -201,30 +197,22 @@ def coordinates(result: Result) -> dict[str, tuple[Series, Series]]:
     They are what has changed since the start posture: place of the centre of mass [m], then the angle [rad],
     or the four Euler parameters. Raises InputError if a channel that this needs was not recorded.
     """
-    if result.scenario.dimensions == 3:
-        poses = Poses(result)
-        return {body: _in_space(poses, body) for body in result.scenario.space.bodies}
-    return {body: _in_plane(result, body) for body in result.scenario.linkage.bodies}
-
-
-def _in_plane(result: Result, name: str) -> tuple[Series, Series]:
-    body = result.scenario.linkage.bodies[name]
-    columns = [result.recorded(f"{name}.{what}", WHY) for what in IN_PLANE]
-    return np.column_stack(columns[:3]) - [*body.centre, body.angle], np.column_stack(columns[3:])
-
-
-def _in_space(poses: Poses, name: str) -> tuple[Series, Series]:
-    pose = poses.of(name)
-    parameters = euler_parameters(pose.turn)
-    place = np.hstack([pose.place - pose.start, parameters - UNTURNED])
-    return place, np.hstack([pose.velocity, parameter_rates(parameters, pose.spin)])
+    poses, scenario = Poses(result), result.scenario
+    moved: dict[str, tuple[Series, Series]] = {}
+    for name, body in scenario.linkage.bodies.items() if scenario.dimensions == 2 else ():
+        columns = np.column_stack([result.recorded(f"{name}.{what}", WHY) for what in IN_PLANE])
+        moved[name] = columns[:, :3] - [*body.centre, body.angle], columns[:, 3:]
+    for name in scenario.space.bodies if scenario.dimensions == 3 else ():
+        pose = poses.of(name)
+        parameters = euler_parameters(pose.turn)
+        place = np.hstack([pose.place - pose.start, parameters - UNTURNED])
+        moved[name] = place, np.hstack([pose.velocity, parameter_rates(parameters, pose.spin)])
+    return moved
 
 
 def euler_parameters(turn: Series) -> Series:
     """Euler parameters (n, 4) of rotations (n, 3, 3) that follow each other; their signs do not jump."""
     found = Rotation.from_matrix(turn).as_quat()[:, [3, 0, 1, 2]]
-    has_prescribed_motion = np.sum(found[1:] * found[:-1], axis=1) >= 0.0
-    first = 1.0 if found[0, 0] >= 0.0 else -1.0
-    signs = first * np.cumprod([1.0, *np.where(has_prescribed_motion, 1.0, -1.0)])
-    steady: Series = signs[:, None] * found
+    steps = np.where(np.sum(found[1:] * found[:-1], axis=1) >= 0.0, 1.0, -1.0)
+    steady: Series = np.cumprod([1.0 if found[0, 0] >= 0.0 else -1.0, *steps])[:, None] * found
     return steady

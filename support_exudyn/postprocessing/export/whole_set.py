@@ -19,37 +19,33 @@ RUN = b"support_exudyn result "  # as files of runs begin, see `simulation.resul
 
 
 @contextmanager
-def whole_set(
-    folder: Path, files: Sequence[str], indexes: Sequence[str], stale: Collection[str] = ()
-) -> Iterator[Path]:
+def whole_set(folder: Path, files: Sequence[str], stale: Collection[str] = ()) -> Iterator[Path]:
     """A temporary folder to write files to; they take their places in `folder` if nothing goes wrong.
 
-    The indexes, which name the other files, go before the rest is replaced and come when all of it is there: so
-    there is never an index without its files, also when the process is killed. After an error or an
-    interruption of the writing all is as it was before.
+    After an error or an interruption of the writing all is as it was before.
 
     Arguments:
         folder: made if missing.
-        files, indexes: names of all that the block writes.
-        stale: files in the folder that are known to be of an earlier set; what this one lacks is removed.
+        files: names of all that the block writes; those that name the others come last.
+        stale: files of an earlier set, which are removed if this one lacks them.
 
     Raises OSError that names what cannot be written; InputError if one of the files is a run.
     """
-    made, names = not folder.exists(), (*files, *indexes)
+    made = not folder.exists()
     try:
         place = real_path(folder)
         place.mkdir(parents=True, exist_ok=True)
         remove_leftovers(place)
         with workshop(place) as temporary:
-            for name in names:
+            for name in files:
                 check_is_no_run(place / name)
                 check_may_be_replaced(place / name)
             yield temporary
-            for name in names:
+            for name in files:
                 write_through(temporary / name)
-            for name in (*indexes, *(one for one in stale if one not in files)):
+            for name in set(stale).difference(files):
                 (place / name).unlink(missing_ok=True)
-            for name in names:
+            for name in files:
                 (temporary / name).replace(place / name)
     except OSError as error:
         if error.errno is None or REFUSED in str(error.strerror):

@@ -1,6 +1,7 @@
 """What of a run is looked at: channels by names and patterns, and a piece between two times."""
 
 import math
+import re
 from collections.abc import Collection, Sequence
 from difflib import get_close_matches
 from fnmatch import fnmatchcase
@@ -9,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError, short
 
@@ -42,6 +44,16 @@ def matching(names: Collection[str], patterns: Sequence[str], kind: str = "chann
             )
         found += [name for name in matched if name not in found]
     return found
+
+
+def as_words(name: str) -> str:
+    """A name of a file or of a class as words: "rear_base" as "rear base", "HydraulicSupport" likewise."""
+    return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", " ", name).lower().replace("_", " ") if name else ""
+
+
+def machine_name(scenario: Scenario) -> str:
+    """The kind of a scenario's machine in words, such as "hydraulic support"."""
+    return as_words(type(scenario.machine).__name__)
 
 
 def inside(result: Result, after: float, until: float, fewest: int = FEWEST) -> npt.NDArray[np.bool_]:

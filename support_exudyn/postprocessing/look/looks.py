@@ -12,7 +12,7 @@ from support_exudyn.machines.four_column_support import HydraulicSupport
 from support_exudyn.machines.two_leg_shield import TwoLegShield
 from support_exudyn.model.machine import Machine
 from support_exudyn.postprocessing.look import plain, shield
-from support_exudyn.postprocessing.look.solid import Look
+from support_exudyn.postprocessing.look.shapes import Look
 from support_exudyn.scenario.scenario import Scenario
 
 

@@ -1,20 +1,33 @@
-"""What a machine looks like that says no more of it: plates around the points at which bodies are joined."""
+"""The look of machines without a look of their own: plates around the points at which bodies are joined."""
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
-from shapely.geometry import Polygon, box
+from shapely.affinity import rotate, translate
+from shapely.geometry import LineString, MultiPoint, Point, Polygon, box
 from shapely.ops import unary_union
+from trimesh import Trimesh
 
-from support_exudyn.model.linkage import GROUND, LinearActuator, Linkage, Slide
+from support_exudyn.model.guides import Guide
+from support_exudyn.model.linkage import GROUND, Linkage, Slide
 from support_exudyn.model.loads.springs import SpringDamper
-from support_exudyn.model.to_space import at, copies
+from support_exudyn.model.to_space import at, copies, pairs_of
 from support_exudyn.postprocessing.look.poses import named_ends, planar_pins
-from support_exudyn.postprocessing.look.shapes import bar, bored, hull, plate, together, tube
-from support_exudyn.postprocessing.look.slots import sliding_block, slot_walls
-from support_exudyn.postprocessing.look.solid import DrawnActuator, Look, Role, Solid
-from support_exudyn.postprocessing.look.springs import springs
+from support_exudyn.postprocessing.look.shapes import (
+    ROUND,
+    Look,
+    Role,
+    Shape,
+    Strut,
+    axle,
+    bar,
+    bored,
+    hull,
+    plate,
+    together,
+    tube,
+)
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.value import Vector2
 
@@ -22,8 +35,9 @@ MARGIN = 0.03  # of plates around their points, of the machine's extent
 THICKNESS = 0.05  # of plates, of the machine's extent
 WALL = 1.3  # radius of an eye, of its bore's
 RAIL = 0.45  # half the length of a guide's rail, of the machine's extent
-BORE = 0.35  # radius of bores where nobody says it, of the margin
+BORE = 0.35  # radius of bores of unknown size, of the margin
 CYLINDER = 0.6  # length of a cylinder, of the actuator at the start
+SLOT_WALL = 0.5  # height of a slot's wall, of the slot's
 
 
 def look(scenario: Scenario) -> Look:
@@ -40,8 +54,10 @@ def look(scenario: Scenario) -> Look:
                 points.setdefault(name, []).append(end)
     size = extent(linkage)
     margin, thickness = MARGIN * size, THICKNESS * size
-    layers = _layers(scenario, 1.1 * thickness)
-    solids = []
+    known = scenario.machine.widths() is not None
+    # how far behind the plane each body is drawn [m]
+    layers = {name: 0.0 if known else -1.1 * n * thickness for n, name in enumerate((*linkage.bodies, GROUND))}
+    shapes = []
     for name, around in points.items():
         pins = [pin for pin, place in linkage.pins.items() if name in (place.first, place.second)]
         wide = max([margin, *(WALL * bore_radius(scenario, pin, margin) for pin in pins)])
@@ -50,23 +66,16 @@ def look(scenario: Scenario) -> Look:
             if pin.bore.body == name:
                 outline = bored(outline, pin.bore.point[:2], bore_radius(scenario, pin.name, margin))
         if name == GROUND:
-            solids.append(Solid(name, GROUND, Role.BASE, plate(outline, layers[name], 0.5 * thickness)))
+            shapes.append(Shape(name, GROUND, Role.BASE, plate(outline, layers[name], 0.5 * thickness)))
             continue
         for body, heights in body_copies(scenario, name):
             mesh = together(plate(outline, z + layers[name], thickness) for z in heights)
-            solids.append(Solid(body, body, Role.BODY, mesh))
-    solids += _pins(scenario, layers, thickness, margin)
+            shapes.append(Shape(body, body, Role.BODY, mesh))
+    shapes += _pins(scenario, layers, thickness, margin)
     lowest = min(y for around in points.values() for _, y in around)
-    actuators = [strut for name in linkage.actuators for strut in _struts(scenario, name, 0.5 * margin)]
-    struts = (*actuators, *springs(scenario, 0.6 * margin))
-    return Look(tuple(solids), struts, lowest - margin)
-
-
-def _layers(scenario: Scenario, apart: float) -> dict[str, float]:
-    """How far behind the plane each body is drawn, by its name [m]."""
-    names = [*scenario.linkage.bodies, GROUND]
-    known = scenario.machine.widths() is not None
-    return {name: 0.0 if known else -n * apart for n, name in enumerate(names)}
+    for name in linkage.actuators:
+        shapes += _actuator(scenario, name, 0.5 * margin)
+    return Look((*shapes, *springs(scenario, 0.6 * margin)), lowest - margin)
 
 
 def _outline(scenario: Scenario, body: str, around: Sequence[Vector2], wide: float, size: float) -> Polygon:
@@ -75,7 +84,7 @@ def _outline(scenario: Scenario, body: str, around: Sequence[Vector2], wide: flo
     loose = {name: slides[name] for name, guide in guides.items() if not guide.holds}
     fixed = [slide for name, slide in slides.items() if name not in loose]
     carried = {name: slide for name, slide in loose.items() if slide.against == body}
-    parts = [wall for name, one in carried.items() for wall in slot_walls(one, guides[name], 2.0 * RAIL * size)]
+    walls = [wall for name, one in carried.items() for wall in slot_walls(one, guides[name], 2.0 * RAIL * size)]
     if body == GROUND:
         rails = [one for one in fixed if one.against == GROUND]
         on_rails = {slide.point for slide in (*rails, *carried.values())}
@@ -83,15 +92,16 @@ def _outline(scenario: Scenario, body: str, around: Sequence[Vector2], wide: flo
         main = [hull(rest, wide)] if rest else []
         main += [_along(slide, RAIL * size, 0.5 * wide) for slide in rails]
     else:
-        main = [hull(around, wide)]
-        main += [
-            _along(one, 2.0 * wide, 1.2 * wide) for one in fixed if one.body == body and one.against == GROUND
-        ]
+        blocks = [one for one in fixed if one.body == body and one.against == GROUND]
+        main = [hull(around, wide), *(_along(one, 2.0 * wide, 1.2 * wide) for one in blocks)]
         own = (name for name, slide in loose.items() if slide.body == body)
         main += [block for name in own for block in sliding_block(slides[name], guides[name])]
-    parts = [*main, *parts]
+    parts = [*main, *walls]
     whole = unary_union(parts)
-    return whole if isinstance(whole, Polygon) else unary_union([whole, _joining(parts, 0.35 * wide)])
+    if isinstance(whole, Polygon):
+        return whole
+    (x, y), *others = [(part.centroid.x, part.centroid.y) for part in parts]
+    return unary_union([whole, *(bar((x, y), other, 0.35 * wide) for other in others)])  # in one piece
 
 
 def _along(slide: Slide, half_length: float, half_width: float) -> Polygon:
@@ -101,28 +111,31 @@ def _along(slide: Slide, half_length: float, half_width: float) -> Polygon:
     return bar((x - u, y - v), (x + u, y + v), half_width)
 
 
-def _joining(parts: Sequence[Polygon], half_width: float) -> Polygon:
-    """Bars from the first part to all others, so that the ground is in one piece."""
-    (x, y), *others = [(part.centroid.x, part.centroid.y) for part in parts]
-    return unary_union([bar((x, y), other, half_width) for other in others])
-
-
-def _pins(scenario: Scenario, layers: Mapping[str, float], thickness: float, margin: float) -> Iterator[Solid]:
-    """Journals, through both bodies and a little out of them, on the one that has not the bore."""
+def _pins(scenario: Scenario, layers: Mapping[str, float], thickness: float, margin: float) -> Iterator[Shape]:
+    """Journals, through both bodies and a little out of them, on the body without the bore."""
     for name, pin in planar_pins(scenario).items():
-        body, centre, with_clearance = pin.journal.body, pin.journal.point[:2], pin.with_clearance
-        radius = (
-            with_clearance.contact.bearing.journal_radius
-            if with_clearance
-            else 0.97 * bore_radius(scenario, name, margin)
-        )
+        body, centre, loose = pin.journal.body, pin.journal.point[:2], pin.with_clearance
+        radius = 0.97 * bore_radius(scenario, name, margin)
+        if loose is not None:
+            radius = loose.contact.bearing.journal_radius
         ends = [layers[pin.first.body], layers[pin.second.body]]
         near, far = min(ends) - 0.5 * thickness, max(ends) + 0.6 * thickness
-        on_ground = [(GROUND, [z for _, z, _ in copies(None)])]
-        copied = on_ground if body == GROUND else body_copies(scenario, body)
-        for one, heights in copied:
+        for one, heights in [(GROUND, [0.0])] if body == GROUND else body_copies(scenario, body):
             mesh = together(tube(at(centre, z + near), at(centre, z + far), radius) for z in heights)
-            yield Solid(f"pin_{name}{one.removeprefix(body)}", one, Role.PIN, mesh)
+            yield Shape(f"pin_{name}{one.removeprefix(body)}", one, Role.PIN, mesh)
+
+
+def _actuator(scenario: Scenario, name: str, radius: float) -> Iterator[Shape]:
+    """An actuator as cylinder and rod; radius: of the cylinder [m]."""
+    actuator, width = scenario.linkage.actuators[name], scenario.machine.widths()
+    pairs = _pairs(scenario)
+    reach = math.dist(actuator.foot_point, actuator.head_point)
+    meshes = axle(0.0, CYLINDER * reach, radius), axle(-0.9 * reach, 0.0, 0.65 * radius)
+    for side, z, _ in copies(width.actuators.get(name) if width else None):
+        part = side if scenario.dimensions == 3 else ""
+        foot, head = (body + part * (body in pairs) for body in (actuator.foot, actuator.head))
+        strut = Strut(name + side, foot, head, at(actuator.foot_point, z), at(actuator.head_point, z))
+        yield from strut.shapes(*meshes)
 
 
 def joined_points(linkage: Linkage) -> dict[str, list[Vector2]]:
@@ -142,10 +155,9 @@ def extent(linkage: Linkage) -> float:
 
 def bore_radius(scenario: Scenario, pin: str, margin: float) -> float:
     """The radius of a pin's bore [m], as far as the scenario knows it."""
-    with_clearance = scenario.clearance_pins.get(pin)
-    if with_clearance is not None:
-        return with_clearance.contact.bearing.bore_radius
-    ideal = scenario.friction_pins.get(pin)
+    loose, ideal = scenario.clearance_pins.get(pin), scenario.friction_pins.get(pin)
+    if loose is not None:
+        return loose.contact.bearing.bore_radius
     return ideal.radius if ideal is not None and ideal.radius is not None else BORE * margin
 
 
@@ -161,45 +173,80 @@ def body_copies(scenario: Scenario, name: str) -> list[tuple[str, list[float]]]:
 
 
 def _pairs(scenario: Scenario) -> Mapping[str, float]:
-    """Half the distance of bodies that there are two of [m], those of actuators in two bodies among them."""
+    """Half the distance of bodies that there are two of [m]."""
     width = scenario.machine.widths()
-    if width is None:
-        return {}
-    of_actuators = {
-        body: width.actuators[name]
-        for slide in scenario.linkage.slides.values()
-        for name, actuator in scenario.linkage.actuators.items()
-        if name in width.actuators and {actuator.foot, actuator.head} == {slide.against, slide.body}
-        for body in (slide.against, slide.body)
-    }
-    return {**width.pairs, **of_actuators}
+    return {} if width is None else pairs_of(scenario.linkage, width)
 
 
-def _struts(scenario: Scenario, name: str, radius: float) -> Iterator[DrawnActuator]:
-    """An actuator as cylinder and rod; radius: of the cylinder [m]."""
-    actuator: LinearActuator = scenario.linkage.actuators[name]
-    width = scenario.machine.widths()
-    pairs = _pairs(scenario)
-    reach = math.dist(actuator.foot_point, actuator.head_point)
-    cylinder = tube((0.0, 0.0, 0.0), (CYLINDER * reach, 0.0, 0.0), radius)
-    rod = tube((-0.9 * reach, 0.0, 0.0), (0.0, 0.0, 0.0), 0.65 * radius)
-    for side, z, _ in copies(width.actuators.get(name) if width else None):
-        part = side if scenario.dimensions == 3 else ""
-        foot, head = (
-            actuator.foot + part * (actuator.foot in pairs),
-            actuator.head + part * (actuator.head in pairs),
-        )
-        ends = at(actuator.foot_point, z), at(actuator.head_point, z)
-        yield DrawnActuator(name + side, foot, head, *ends, cylinder, rod)
+# --- springs, guides with clearance, falling blocks ---
+
+TURNS = 6  # of a zigzag
+ZIGZAG = (0.15, 0.75)  # of the length at the start, between which it lies
+WIRE = 0.22  # half the thickness of what it is drawn with, of its half width
+DASHPOT, OVERLAP = 0.55, 1.05  # length of a damper's cylinder, of its own at the start; and of both together
 
 
-def blocks(scenario: Scenario) -> list[Solid]:
+def springs(scenario: Scenario, half_width: float) -> Iterator[Shape]:
+    """Each spring and damper between two points: a zigzag and a rod, or a dashpot; half_width: of a zigzag [m].
+
+    The zigzag stays as it is while the rod at its other end follows.
+    """
+    sides = 1.0 if scenario.dimensions == 3 else 0.0  # by which lateral places count
+    for name, load in scenario.acting_loads.items():
+        if isinstance(load, SpringDamper):
+            foot, head = at(load.other_point, sides * load.other_lateral), at(load.point, sides * load.lateral)
+            meshes = _spring(math.dist(foot, head), half_width, is_damper=load.stiffness == 0.0)
+            yield from Strut(name, load.other, load.body, foot, head).shapes(*meshes)
+
+
+def _spring(length: float, half_width: float, *, is_damper: bool) -> tuple[Trimesh, Trimesh]:
+    """The surfaces at both ends of a spring or damper of this length at the start [m]."""
+    if is_damper:
+        rod = axle((DASHPOT - OVERLAP) * length, 0.0, 0.4 * half_width)
+        return axle(0.0, DASHPOT * length, half_width), rod
+    first, last = (share * length for share in ZIGZAG)
+    places = np.linspace(first, last, 2 * TURNS + 1)
+    aside = [0.0, *(half_width * (-1.0) ** n for n in range(2 * TURNS - 1)), 0.0]
+    wire = LineString([(0.0, 0.0), *zip(places.tolist(), aside, strict=True)])
+    zigzag = plate(wire.buffer(WIRE * half_width, join_style="mitre"), 0.0, 2.0 * half_width)
+    return zigzag, axle(last - length, 0.0, WIRE * half_width)
+
+
+def slot_walls(slide: Slide, guide: Guide, length: float) -> list[Polygon]:
+    """Both walls of a guide in the start posture, about its point; none if it has no clearance.
+
+    length: of the guide [m], or that of the block and as much again if that is more.
+    """
+    for part in guide.contacts().values():
+        half, slot = max(0.5 * length, 2.0 * abs(part.point[0])), part.contact.bearing.size
+        high = SLOT_WALL * 2.0 * slot
+        low = (part.middle + slot, part.middle - slot - high)
+        return [_on_guide(box(-half, y, half, y + high), slide) for y in low]
+    return []
+
+
+def sliding_block(slide: Slide, guide: Guide) -> list[Polygon]:
+    """What slides in a guide with clearance: a block, or a pin; nothing if it has no clearance."""
+    parts = list(guide.contacts().values())
+    if not parts:
+        return []
+    whole = MultiPoint([part.point for part in parts]).convex_hull
+    radius = parts[0].contact.bearing.contact_arms(0.0)[1]
+    return [_on_guide(whole.buffer(radius, quad_segs=ROUND) if radius else whole, slide)]
+
+
+def _on_guide(shape: Polygon, slide: Slide) -> Polygon:
+    """A shape in the axes of a guide, about its point, in the start posture."""
+    return translate(rotate(shape, math.degrees(slide.direction), origin=Point(0.0, 0.0)), *slide.point)
+
+
+def blocks(scenario: Scenario) -> list[Shape]:
     """A cube for each falling block, of its mass and density, where it starts."""
-    found = []
+    shapes = []
     for name, block in scenario.blocks.items():
         x, y = scenario.linkage.bodies[name].centre
         half = 0.5 * block.side
         aside = block.lateral if scenario.dimensions == 3 else 0.0
         mesh = plate(box(x - half, y - half, x + half, y + half), aside, block.side)
-        found.append(Solid(name, name, Role.ROCK, mesh))
-    return found
+        shapes.append(Shape(name, name, Role.ROCK, mesh))
+    return shapes

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property, lru_cache, partial
+from functools import cached_property, lru_cache
 from typing import NamedTuple
 
 import numpy as np
-from trimesh import Trimesh
+from scipy.spatial.transform import Rotation
 
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.linkage import GROUND, Body, Linkage
 from support_exudyn.model.pins import ClearancePin
 from support_exudyn.model.spatial_linkage import SpatialBody, SpatialLinkage
 from support_exudyn.model.to_space import at
-from support_exudyn.postprocessing.look.solid import DrawnActuator, Look, Role
+from support_exudyn.postprocessing.look.shapes import Shape
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError, Vector3
@@ -85,9 +84,9 @@ class Pose:
         if self._known is None:
             return np.broadcast_to(np.eye(3), (self._result.time.size, 3, 3))
         angle = self._columns("angle")[:, 0] - self._known.angle
-        if not self._in_space:
-            return _about_z(angle)
-        return turned(angle, *self._columns("roll", "yaw").T)
+        if self._in_space:
+            return turned(angle, *self._columns("roll", "yaw").T)
+        return np.asarray(Rotation.from_euler("z", angle[:, None]).as_matrix())
 
     @cached_property
     def velocity(self) -> Series:
@@ -100,9 +99,12 @@ class Pose:
         return self._columns("angular_velocity_x", "angular_velocity_y", "angular_velocity")
 
     def frame(self, record: int) -> Frame:
-        """The body's axes at a record, parallel to those of the ground in the start posture."""
+        """The axes at a record in which the body's points have the coordinates of the start posture."""
         turn = self.turn[record]
-        return Frame(self.place[record], turn, self.velocity[record], np.cross(self.spin[record], turn.T).T)
+        turning = np.cross(self.spin[record], turn.T).T
+        return Frame(
+            self.place[record] - turn @ self.start, turn, self.velocity[record] - turning @ self.start, turning
+        )
 
     def path(self, point: Vector3) -> Series:
         """The places of a point of the start posture at all records (n, 3) [m]."""
@@ -120,15 +122,17 @@ class Poses:
         self.time: Series = result.time
         self.of = lru_cache(maxsize=None)(lambda body: Pose(result, body))
 
-
-def _about_z(angle: Series) -> Series:
-    """Rotation matrices (n, 3, 3) by angles about z (n,) [rad]."""
-    turn = np.zeros((angle.size, 3, 3))
-    turn[:, 0, 0] = turn[:, 1, 1] = np.cos(angle)
-    turn[:, 1, 0] = np.sin(angle)
-    turn[:, 0, 1] = -turn[:, 1, 0]
-    turn[:, 2, 2] = 1.0
-    return turn
+    def frame(self, shape: Shape, record: int) -> Frame:
+        """The axes of a shape's mesh at a record: those of its body, or of its strut at one end."""
+        if shape.strut is None:
+            return self.of(shape.body).frame(record)
+        bodies = [(self.of(body).frame(record), np.array(point)) for body, point in shape.strut.ends]
+        (foot, head), (slow, fast) = (
+            [frame.points(point) for frame, point in bodies],
+            [frame.velocities(point) for frame, point in bodies],
+        )
+        axes, turning = axes_along(head - foot, fast - slow)
+        return Frame((foot, head)[shape.end], axes, (slow, fast)[shape.end], turning)
 
 
 def turned(angle: Series, roll: Series, yaw: Series) -> Series:
@@ -143,8 +147,7 @@ def turned(angle: Series, roll: Series, yaw: Series) -> Series:
     """
     (cr, sr), (cy, sy), (ca, sa) = ((np.cos(one), np.sin(one)) for one in (roll, yaw, angle))
     zero = np.zeros_like(angle)
-    rows = ((sr, ca, zero), (zero, sy, cr), (cy, zero, sa))
-    matrix = np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+    matrix = np.moveaxis(np.array([(sr, ca, zero), (zero, sy, cr), (cy, zero, sa)]), -1, 0)
     if np.abs(np.linalg.det(matrix)).min() < LEAST:
         raise InputError(
             "roll, yaw and angle do not determine how a body has turned; allowed: bodies that turn less to the "
@@ -152,67 +155,20 @@ def turned(angle: Series, roll: Series, yaw: Series) -> Series:
         )
     right = np.stack([-sa * cr, -sr * cy, -ca * sy], axis=-1)
     p, q, s = np.linalg.solve(matrix, right[..., None])[..., 0].T
-    columns = np.stack([np.stack(row, axis=-1) for row in ((ca, q, sy), (sa, cr, s), (p, sr, cy))], axis=-2)
+    columns = np.moveaxis(np.array([(ca, q, sy), (sa, cr, s), (p, sr, cy)]), -1, 0)
     return np.asarray(columns / np.linalg.norm(columns, axis=-2, keepdims=True))
 
 
-# --- parts ---
+# --- struts ---
 
-ACROSS = np.array([0.0, 0.0, 1.0])
-UP = np.array([0.0, 1.0, 0.0])
+ACROSS, UP = np.array([0.0, 0.0, 1.0]), np.array([0.0, 1.0, 0.0])
 ALONG_Z = 0.99  # cosine, above which a direction has no use for z as its neighbour
 
 
-class MovingPart(NamedTuple):
-    """A surface that moves as a whole: of a solid, or cylinder or rod of an actuator.
-
-    body: its name; of an actuator "NAME cylinder", "NAME rod". mesh: in axes that move with it [m]. frame:
-    these axes at a record.
-    """
-
-    body: str
-    role: Role
-    mesh: Trimesh
-    frame: Callable[[int], Frame]
-
-
-def moving_parts(look: Look, poses: Poses) -> list[MovingPart]:
-    """All solids of a look, then cylinder and rod of every strut."""
-    parts = []
-    for solid in look.solids:
-        pose, mesh = poses.of(solid.body), solid.mesh.copy()
-        mesh.apply_translation(-pose.start)
-        parts.append(MovingPart(solid.body, solid.role, mesh, pose.frame))
-    for strut in look.struts:
-        for n, (role, mesh) in enumerate(((Role.CYLINDER, strut.cylinder), (Role.ROD, strut.rod))):
-            frame = partial(strut_frame, strut, poses, n)
-            parts.append(MovingPart(f"{strut.name} {role.value}", role, mesh, frame))
-    return parts
-
-
-def strut_frame(strut: DrawnActuator, poses: Poses, end: int, record: int) -> Frame:
-    """Axes of a strut at its foot (end 0) or head (end 1).
-
-    x from foot to head, z as near to the ground's z as can be (to y if it stands along z). A strut does not
-    turn about itself against them.
-    """
-    places, velocities = [], []
-    for body, point in ((strut.foot, strut.foot_point), (strut.head, strut.head_point)):
-        pose = poses.of(body)
-        arm, frame = np.array(point) - pose.start, pose.frame(record)
-        places.append(frame.points(arm))
-        velocities.append(frame.velocities(arm))
-    axes, turning = axes_along(places[1] - places[0], velocities[1] - velocities[0])
-    return Frame(places[end], axes, velocities[end], turning)
-
-
-def strut_axes(way: Series) -> Series:
-    """Axes of a strut in columns, shape (3, 3), as in `strut_frame`; way: from foot to head, shape (3,) [m]."""
-    return axes_along(way, np.zeros(3))[0]
-
-
 def axes_along(way: Series, rate: Series) -> tuple[Series, Series]:
-    """Axes of a strut in columns, and their rate.
+    """Axes of a strut in columns (3, 3), and their rate [1/s].
+
+    x runs from foot to head, z is as near to the ground's z as can be (to y if the strut stands along z).
 
     Arguments:
         way: from foot to head, shape (3,), not zero [m].
@@ -249,8 +205,7 @@ def named_ends(linkage: Linkage | SpatialLinkage) -> list[tuple[str, str, tuple[
     return [*ends, *((name, traced.body, traced.point) for name, traced in linkage.points.items())]
 
 
-@dataclass(frozen=True)
-class DrawnEnd:
+class PinEnd(NamedTuple):
     """A body, or "ground", and the point of it at which the pin is, start posture [m]."""
 
     body: str
@@ -268,8 +223,8 @@ class PlacedPin:
     """
 
     name: str
-    first: DrawnEnd
-    second: DrawnEnd
+    first: PinEnd
+    second: PinEnd
     with_clearance: ClearancePin | None
 
     @property
@@ -278,12 +233,12 @@ class PlacedPin:
         return self.with_clearance is not None and self.with_clearance.bore == "second"
 
     @property
-    def bore(self) -> DrawnEnd:
+    def bore(self) -> PinEnd:
         """The body that carries the bore, and its centre."""
         return self.second if self.bore_is_second else self.first
 
     @property
-    def journal(self) -> DrawnEnd:
+    def journal(self) -> PinEnd:
         """The body that carries the journal, and its centre."""
         return self.first if self.bore_is_second else self.second
 
@@ -292,28 +247,21 @@ def placed_pins(scenario: Scenario) -> list[PlacedPin]:
     """All pins of a scenario, in the order of its machine; guides are none."""
     if scenario.dimensions == 2:
         return list(planar_pins(scenario).values())
-    with_clearance = scenario.clearance_pins
+    loose, bearings = scenario.clearance_pins, scenario.space.bearings.items()
     return [
-        PlacedPin(
-            name,
-            DrawnEnd(b.first, b.first_point),
-            DrawnEnd(b.second, b.second_point),
-            with_clearance.get(b.pin),
-        )
-        for name, b in scenario.space.bearings.items()
+        PlacedPin(name, PinEnd(b.first, b.first_point), PinEnd(b.second, b.second_point), loose.get(b.pin))
+        for name, b in bearings
         if not b.is_guide
     ]
 
 
 def planar_pins(scenario: Scenario) -> dict[str, PlacedPin]:
     """The pins of the plane, by name, also of a scenario in space."""
-    with_clearance = scenario.clearance_pins
+    loose = scenario.clearance_pins
     return {
         name: PlacedPin(
-            name,
-            DrawnEnd(p.first, at(p.first_point, 0.0)),
-            DrawnEnd(p.second, at(p.second_point, 0.0)),
-            with_clearance.get(name),
+            name, PinEnd(p.first, at(p.first_point, 0.0)), PinEnd(p.second, at(p.second_point, 0.0)),
+            loose.get(name),
         )
         for name, p in scenario.linkage.pins.items()
-    }
+    }  # fmt: skip

@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 from shapely.geometry import Point, Polygon
 from shapely.ops import unary_union
 from trimesh import Trimesh
@@ -14,12 +15,21 @@ from support_exudyn.machines.shield_layout import TAIL
 from support_exudyn.model.actuators import CylinderAndRod
 from support_exudyn.model.linkage import GROUND, LinearActuator, lumped
 from support_exudyn.model.plane_geometry import moved
-from support_exudyn.model.to_space import LEFT, RIGHT, SIDES, at
-from support_exudyn.postprocessing.look.plain import blocks, extent
+from support_exudyn.model.to_space import SIDES, at, copies
+from support_exudyn.postprocessing.look.plain import blocks, extent, springs
 from support_exudyn.postprocessing.look.poses import planar_pins
-from support_exudyn.postprocessing.look.shapes import ROUND, bar, cylinder_and_rod, plate, together, tube
-from support_exudyn.postprocessing.look.solid import DrawnActuator, Look, Role, Solid
-from support_exudyn.postprocessing.look.springs import springs
+from support_exudyn.postprocessing.look.shapes import (
+    ROUND,
+    Look,
+    Role,
+    Shape,
+    Strut,
+    bar,
+    cylinder_and_rod,
+    plate,
+    together,
+    tube,
+)
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.value import Vector2
 
@@ -80,23 +90,21 @@ class _Support:
         a, b = self.on_second["front_base"], self.on_first["front_shield"]
         link = bar(a, b, 0.8 * self.eye)
         rear = bar(self.on_second["rear_base"], self.on_first["rear_shield"], self.eye)
-        solids = [
-            Solid("base", GROUND, Role.BASE, self._base()),
-            Solid("rear_link", "rear_link", Role.LINK, plate(rear, 0.0, self.rear_link)),
+        shapes = [
+            Shape("base", GROUND, Role.BASE, self._base()),
+            Shape("rear_link", "rear_link", Role.LINK, plate(rear, 0.0, self.rear_link)),
             *self._of_pair("front_link", Role.LINK, lambda z: plate(link, z, self.front_link), self.pair),
-            Solid("shield", "shield", Role.SHIELD, self._shield()),
-            Solid("canopy", "canopy", Role.CANOPY, self._canopy()),
+            Shape("shield", "shield", Role.SHIELD, self._shield()),
+            Shape("canopy", "canopy", Role.CANOPY, self._canopy()),
             *self._tail(),
             *self._pins(),
             *blocks(self.scenario),
         ]
-        struts: list[DrawnActuator] = springs(self.scenario, self.column)
+        shapes += springs(self.scenario, self.column)
         for name, column in {**self.columns, **self.jacks}.items():
-            if isinstance(self.scenario.actuators.get(name), CylinderAndRod):
-                solids.extend(self._column_bodies(name, column))
-            else:
-                struts.extend(self._struts(name, column))
-        return Look(tuple(solids), tuple(struts), self.floor)
+            in_two_bodies = isinstance(self.scenario.actuators.get(name), CylinderAndRod)
+            shapes += (self._column_bodies if in_two_bodies else self._struts)(name, column)
+        return Look(tuple(shapes), self.floor)
 
     # --- bodies ---
 
@@ -165,19 +173,19 @@ class _Support:
         places = [side * self._beside(name) for side in SIDES.values()]
         return [tube(at(low, z), at(high, z), 1.25 * self.column) for z in places]
 
-    def _tail(self) -> Iterator[Solid]:
+    def _tail(self) -> Iterator[Shape]:
         """The tail beam, hanging from the lower end of the shield beam; nothing if the machine has none."""
         machine, linkage = self.scenario.machine, self.scenario.linkage
         assert isinstance(machine, FourBarShield)  # whose look this is
         if TAIL in linkage.bodies:
             near, centre = self.on_second["shield_tail"], linkage.bodies[TAIL].centre
-            yield Solid(TAIL, TAIL, Role.TAIL, self._beam(near, centre))
+            yield Shape(TAIL, TAIL, Role.TAIL, self._beam(near, centre))
         elif tail := [part for part in machine.parts["shield"] if part.name == TAIL]:
             start, rear = machine.start(), self.on_second["rear_shield"]
             hinge = machine.tail_hinge or machine.rear_shield
             # where the points are, also with journals that start out of the middle
             ends = (moved(end, machine.rear_shield, rear, start.shield) for end in (hinge, lumped(tail).centre))
-            yield Solid(TAIL, "shield", Role.TAIL, self._beam(*ends))
+            yield Shape(TAIL, "shield", Role.TAIL, self._beam(*ends))
 
     def _beam(self, near: Vector2, centre: Vector2) -> Trimesh:
         """A tail beam from its hinge, with its centre of mass in the middle."""
@@ -188,7 +196,7 @@ class _Support:
         z = self.cheek - 1.2 * self.plate  # between those of the shield beam
         return together([*_both(cheek, z, self.plate), plate(bar(low, high, 0.3 * eye), 0.0, 2.0 * z)])
 
-    def _pins(self) -> Iterator[Solid]:
+    def _pins(self) -> Iterator[Shape]:
         """Round pins through their plates, each on the body that has the journal."""
         for name, pin in planar_pins(self.scenario).items():
             if name.endswith(("_foot", "_head")):
@@ -200,7 +208,7 @@ class _Support:
                 short = partial(_short_pin, centre, inner, end, self.pin)
                 yield from self._of_pair(body, Role.PIN, short, self.pair, f"pin_{name}")
             else:
-                yield Solid(f"pin_{name}", body, Role.PIN, tube(at(centre, -end), at(centre, end), self.pin))
+                yield Shape(f"pin_{name}", body, Role.PIN, tube(at(centre, -end), at(centre, end), self.pin))
 
     # --- columns ---
 
@@ -222,16 +230,14 @@ class _Support:
         radius = self._radius(name) if column.driven else min(0.4 * self.column, 0.1 * shortest)
         return cylinder_and_rod(shortest, longest, radius)
 
-    def _struts(self, name: str, column: LinearActuator) -> Iterator[DrawnActuator]:
+    def _struts(self, name: str, column: LinearActuator) -> Iterator[Shape]:
         """Both columns of a pair, or the jack in the middle."""
-        cylinder, rod = self._meshes(name, column)
-        sides = {f"_{side}": sign for side, sign in SIDES.items()} if column.driven else {"": 0.0}
-        for side, sign in sides.items():
-            z = sign * self._beside(name)
+        meshes = self._meshes(name, column)
+        for side, z, _ in copies(self._beside(name) if column.driven else None):
             foot, head = at(column.foot_point, z), at(column.head_point, z)
-            yield DrawnActuator(f"{name}{side}", column.foot, column.head, foot, head, cylinder, rod)
+            yield from Strut(f"{name}{side}", column.foot, column.head, foot, head).shapes(*meshes)
 
-    def _column_bodies(self, name: str, column: LinearActuator) -> Iterator[Solid]:
+    def _column_bodies(self, name: str, column: LinearActuator) -> Iterator[Shape]:
         """The shapes of a column without mass, on the bodies that this one is made of."""
         cylinder, rod = self._meshes(name, column)
         for body, role, mesh, end in (
@@ -242,25 +248,23 @@ class _Support:
 
     def _of_pair(
         self, body: str, role: Role, mesh: Callable[[float], Trimesh], apart: float, name: str = ""
-    ) -> Iterator[Solid]:
+    ) -> Iterator[Shape]:
         """One body with two surfaces in the plane, two bodies in space; mesh: by its distance from it."""
-        name = name or body
-        if self.scenario.dimensions == 3 and f"{body}_{LEFT}" in self.scenario.space.bodies:
-            for side in (LEFT, RIGHT):
-                yield Solid(f"{name}_{side}", f"{body}_{side}", role, mesh(SIDES[side] * apart))
-            return
-        yield Solid(name, body, role, together(mesh(sign * apart) for sign in SIDES.values()))
+        name, sides = name or body, copies(apart)
+        if self.scenario.dimensions == 3 and body + sides[0][0] in self.scenario.space.bodies:
+            yield from (Shape(name + side, body + side, role, mesh(z)) for side, z, _ in sides)
+        else:
+            yield Shape(name, body, role, together(mesh(z) for _, z, _ in sides))
 
 
 def _placed(mesh: Trimesh, column: LinearActuator, end: Vector2, z: float) -> Trimesh:
     """A surface along a column from one of its ends, at a distance from the plane."""
     (x, y), (u, v) = column.foot_point, column.head_point
-    length = math.hypot(u - x, v - y)
-    c, s = (u - x) / length, (v - y) / length
     placed: Trimesh = mesh.copy()
-    placed.apply_transform(
-        np.array([[c, -s, 0.0, end[0]], [s, c, 0.0, end[1]], [0.0, 0.0, 1.0, z], [0.0, 0.0, 0.0, 1.0]])
-    )
+    turn = np.eye(4)
+    turn[:3, :3] = Rotation.from_euler("z", math.atan2(v - y, u - x)).as_matrix()
+    placed.apply_transform(turn)
+    placed.apply_translation(at(end, z))
     return placed
 
 

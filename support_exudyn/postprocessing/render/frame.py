@@ -1,21 +1,31 @@
-"""A frame: the machine as the ray tracer sees it, and what is written and drawn on and beside it."""
+"""A frame: the machine as the ray tracer sees it, journals in their bores, and force over time."""
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
+from matplotlib.colors import to_hex
+from matplotlib.patches import Circle, Patch
+from matplotlib.ticker import MaxNLocator
 
-from support_exudyn.postprocessing.figures.style import CONTACT, FLIGHT, IDEAL
+from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.model.linkage import GROUND
+from support_exudyn.postprocessing.figures.selection import as_words, machine_name
+from support_exudyn.postprocessing.figures.style import CONTACT, FLIGHT, IDEAL, draw_pieces, pieces
 from support_exudyn.postprocessing.figures.units import readable, said_beside
+from support_exudyn.postprocessing.look.shapes import COLOURS, Role
+from support_exudyn.postprocessing.render.canvas import FAINT, INK, RULE, SMALLEST_FONT, Box, Canvas, Point
 from support_exudyn.postprocessing.render.movie import Moments
-from support_exudyn.postprocessing.render.panels import TRAIL, Inset, Strip
-from support_exudyn.postprocessing.render.pin_views import PinView, round_down, said, usual
+from support_exudyn.postprocessing.render.pin_views import STEPS, Bore, PinView, format_round, round_up, usual
 from support_exudyn.postprocessing.render.scene import RenderedScene
-from support_exudyn.postprocessing.render.sheet import FAINT, INK, Box, Canvas, Image
-from support_exudyn.postprocessing.render.stage import Camera
+from support_exudyn.postprocessing.render.stage import Camera, Picture
 from support_exudyn.scenario.scenario import Scenario
 
 ARROW = 0.24  # length of the usual force's arrow, of the height of a machine's picture that is as wide as usual
 LONGEST = 0.42  # of an arrow in it
+SMALL = 0.72  # size of the letters of an inset that is one of several
+GAP = 8.0  # between insets
+WORDS = 135.0  # height of what is written below them
 
 
 class Layout:
@@ -39,26 +49,17 @@ class Layout:
         left = margin + round(58 * u)
         self.strip: Box = (left, bottom + round(28 * u), right - margin, height - round(30 * u))
 
-
-SMALL = 0.72  # size of the letters of an inset that is one of several
-GAP = 8.0  # between insets
-WORDS = 135.0  # height of what is written below them
-
-
-def inset_boxes(panel: Box, count: int, unit: float) -> list[Box]:
-    """Places of so many insets in a panel: squares, as large as leaves room for the words below them."""
-    left, top, right, bottom = panel
-    if count < 2:
-        return [(left, top, right, top + right - left)][:count]
-    gap, room = GAP * unit, bottom - top - WORDS * unit
-
-    def side(columns: int) -> float:
-        return min((right - left + gap) / columns, room / -(-count // columns)) - gap
-
-    columns = max(range(1, count + 1), key=side)
-    step = side(columns) + gap
-    corners = [(left + n % columns * step, top + n // columns * step) for n in range(count)]
-    return [(round(x), round(y), round(x + step - gap), round(y + step - gap)) for x, y in corners]
+    def insets(self, count: int) -> list[Box]:
+        """Squares for so many insets in the panel, as large as leaves room for the words below them."""
+        left, top, right, bottom = self.panel
+        if count < 2:
+            return [(left, top, right, top + right - left)][:count]
+        gap, room = GAP * self.unit, bottom - top - WORDS * self.unit
+        sides = {n: min((right - left + gap) / n, room / -(-count // n)) - gap for n in range(1, count + 1)}
+        columns = max(sides, key=lambda n: sides[n])
+        side, step = sides[columns], sides[columns] + gap
+        corners = [(left + n % columns * step, top + n // columns * step) for n in range(count)]
+        return [(round(x), round(y), round(x + side), round(y + side)) for x, y in corners]
 
 
 class Painter:
@@ -67,102 +68,89 @@ class Painter:
     Arguments:
         scene: the run.
         layout, camera: of the frames.
-        pins: the first is that whose force is shown; of the others journals and arrows. Empty: nothing is.
+        pins: the first is that whose force is shown; of the others journals and arrows; none: no panel.
         moments: of the frames.
     """
 
     def __init__(
         self, scene: RenderedScene, layout: Layout, camera: Camera, pins: Sequence[PinView], moments: Moments
     ) -> None:
-        pin = pins[0] if pins else None
-        self._others = pins[1:]
-        self._scene, self._layout, self._camera, self._pin = scene, layout, camera, pin
+        self._scene, self._layout, self._camera, self._pins = scene, layout, camera, pins
         self._moments, self._time = moments, scene.result.time
-        self._sheet = Canvas(layout.width, layout.height)
-        self._insets: list[tuple[PinView, Inset]] = []
-        self._below = layout.panel[1]  # of the insets
+        self._sheet = sheet = Canvas(layout.width, layout.height)
         u, (left, _, right, bottom) = layout.unit, layout.line
-        text = title(scene.result.scenario, pin)
-        self._sheet.write((left, 0.66 * bottom), text, 17 * u, room=right - left - 360 * u)
-        if pin is not None:
-            inside = (self._time >= moments.shown[0]) & (self._time <= moments.shown[1])
-            self._peak = float(pin.size.max(initial=0.0))  # [N]
+        text = title(scene.result.scenario, pins[0] if pins else None)
+        sheet.write((left, 0.66 * bottom), text, 17 * u, room=right - left - 360 * u)
+        if pins:
+            pin, (first, last) = pins[0], moments.shown
+            inside = (self._time >= first) & (self._time <= last)
             self._usual = usual(pin.size[moments.records] if moments.times.size > 1 else pin.size[inside])
             wide, high = layout.picture[2] - layout.picture[0], layout.picture[3] - layout.picture[1]
             self._scale = ARROW * min(high, 0.55 * wide) / self._usual  # pixels to a newton
-            self._colour = IDEAL if pin.bore is None else CONTACT
             self._panel(pin)
-            self._strip = Strip(layout.strip, self._time, pin, *moments.shown, u)
-            self._strip.draw_still(self._sheet)
-        self._sheet.hold()
+            self._strip = Strip(sheet, layout.strip, self._time[inside], pin, inside, moments.shown, u)
+        sheet.hold()
 
     def _panel(self, pin: PinView) -> None:
-        """Draw what of the panel does not change: the bore, and the scale of the arrow."""
-        u, sheet = self._layout.unit, self._sheet
-        with_bore = [one for one in (pin, *self._others) if one.bore is not None]
-        several = len(with_bore) > 1
-        for one, box in zip(with_bore, inset_boxes(self._layout.panel, len(with_bore), u), strict=True):
-            assert one.bore is not None
-            inset = Inset(box, one.bore, SMALL * u if several else u, one.name if several else "")
-            inset.draw_still(sheet)
+        """Draw what of the panel does not change: the bores, and the scale of the arrow."""
+        u, sheet, below = self._layout.unit, self._sheet, self._layout.panel[1]
+        loose = [(one, one.bore) for one in self._pins if one.bore is not None]
+        several, self._insets = len(loose) > 1, []
+        for (one, bore), box in zip(loose, self._layout.insets(len(loose)), strict=True):
+            inset = Inset(sheet, box, bore, SMALL * u if several else u, one.name if several else "")
             self._insets.append((one, inset))
-            self._below = box[3]
-        x, y = self._words
-        sheet.write((x, y), f"force in {pin.name.replace('_', ' ')}", 14 * u, anchor="left top")
+            below = box[3]
+        self._words = x, y = self._layout.panel[0], below + round(18 * u)
+        sheet.write((x, y), f"force in {as_words(pin.name)}", 14 * u, anchor="left top")
         sheet.write((x, y + 76 * u), f"on the {pin.on}", 14 * u, anchor="left top")
         force = readable("N", self._usual)
-        bar = round_down(force.scale * self._usual)
-        long = bar / force.scale * self._scale
-        sheet.arrow((x, y + 110 * u), (x + long, y + 110 * u), self._colour, 5.5 * u)
-        sheet.write((x + long + 14 * u, y + 110 * u), f"{said(bar)} {force.name}", 14 * u, anchor="left center")
+        bar = 1.0 / round_up(1.0 / (force.scale * self._usual))  # the round number below it
+        tip = x + bar / force.scale * self._scale
+        sheet.arrow((x, y + 110 * u), (tip, y + 110 * u), CONTACT if pin.bore else IDEAL, 5.5 * u)
+        text = f"{format_round(bar)} {force.name}"
+        sheet.write((tip + 14 * u, y + 110 * u), text, 14 * u, anchor="left center")
 
-    @property
-    def _words(self) -> tuple[float, float]:
-        """The corner of what of the panel is below the inset."""
-        return self._layout.panel[0], self._below + round(18 * self._layout.unit)
-
-    def frame(self, machine: Image, number: int) -> Image:
+    def frame(self, machine: Picture, number: int) -> Picture:
         """The frame of a number, around the picture of the machine."""
-        layout, u, sheet = self._layout, self._layout.unit, self._sheet
+        u, sheet = self._layout.unit, self._sheet
         record = int(self._moments.records[number])
-        left, top, *_ = layout.picture
+        left, top, right, bottom = self._layout.picture
         sheet.paste(machine, (left, top))
-        self._forward()
+        start, y = right - 64 * u, bottom - 14 * u
+        sheet.arrow((start, y), (right - 10 * u, y), INK, 2.5 * u)
+        sheet.write((start - 8 * u, y), "forward", 13 * u, anchor="right center")
         for label in self._scene.labels(record):
-            x, y = self._camera.pixels(np.array([label.place]))[0]
             colour = "#ffffff" if label.light else INK
-            sheet.write((left + float(x), top + float(y)), label.text, 15 * u, colour, "center center")
-        _, _, right, bottom = layout.line
+            sheet.write(self._seen(label.place), label.text, 15 * u, colour, "center center")
+        _, _, right, bottom = self._layout.line
         text = f"t = {self._time[record]:.{self._moments.decimals}f} s"
         clock = sheet.write((right, 0.66 * bottom), text, 22 * u, anchor="right baseline", bold=True)
         before = right - sheet.width(clock) - 16 * u
         sheet.write((before, 0.66 * bottom), self._moments.pace, 14 * u, FAINT, "right baseline")
-        if self._pin is not None:
-            self._force(self._pin, record, number)
+        if self._pins:
+            self._force(self._pins[0], record, number)
         return sheet.frame()
 
-    def _forward(self) -> None:
-        """Say which way is forward, in the lower right corner of the machine's picture."""
-        u, (_, _, right, bottom) = self._layout.unit, self._layout.picture
-        start, y = right - 64 * u, bottom - 14 * u
-        self._sheet.arrow((start, y), (right - 10 * u, y), INK, 2.5 * u)
-        self._sheet.write((start - 8 * u, y), "forward", 13 * u, anchor="right center")
+    def _seen(self, point: Sequence[float]) -> Point:
+        """The place on the frame of a point in space."""
+        x, y = self._camera.pixels(np.array([point]))[0].tolist()
+        return self._layout.picture[0] + x, self._layout.picture[1] + y
 
     def _force(self, pin: PinView, record: int, number: int) -> None:
-        """Draw arrows, numbers, journal and cursor."""
+        """Draw arrows, numbers, journals and cursor."""
         u, sheet, (left, top) = self._layout.unit, self._sheet, self._words
-        size = float(pin.size[record])
-        for one in (*self._others, pin):
+        for one in (*self._pins[1:], pin):
             self._arrow(one, record)
+        size = float(pin.size[record])
+        text = said_beside(size, "N", float(pin.size.max(initial=0.0)))
         colour = INK if size > 0.0 else FAINT
-        number_text = said_beside(size, "N", self._peak)
-        sheet.write((left, top + 28 * u), number_text, 30 * u, colour, "left top", bold=True)
+        sheet.write((left, top + 28 * u), text, 30 * u, colour, "left top", bold=True)
         if self._cut(pin, record) < 1.0:
             sheet.write((left, top + 126 * u), "the arrow is cut short", 13 * u, FAINT, "left top")
         for one, inset in self._insets:
             x, y = (self._scale * self._cut(one, record) * one.force[record]).tolist()
-            inset.draw(sheet, record, self._moments.back(number, TRAIL), (x, -y))
-        self._strip.cursor(sheet, float(self._time[record]), size)
+            inset.draw(record, self._moments.back(number, TRAIL), (x, -y))
+        self._strip.cursor(float(self._time[record]), size)
 
     def _cut(self, pin: PinView, record: int) -> float:
         """The share of a force whose arrow is drawn: 1, or less if it would be too long."""
@@ -170,40 +158,165 @@ class Painter:
 
     def _arrow(self, pin: PinView, record: int) -> None:
         """Draw the arrow of the force in the machine's picture, and a mark on the pin."""
-        u, (left, top, *_) = self._layout.unit, self._layout.picture
-        x, y = self._camera.pixels(np.array([self._scene.context(pin, record)]))[0]
-        place = (left + float(x), top + float(y))
+        u, (x, y) = self._layout.unit, self._seen(self._scene.front_of(pin, record))
         force = self._cut(pin, record) * pin.force[record]
         along = self._camera.arrow(np.array([*force, 0.0])) / self._camera.scale * self._scale
         mark = IDEAL if pin.bore is None else CONTACT if pin.bore.closed[record] else FLIGHT
-        self._sheet.disc(place, 8.0 * u, mark, 1.5 * u)
-        tip = (place[0] + float(along[0]), place[1] + float(along[1]))
-        self._sheet.arrow(place, tip, IDEAL if pin.bore is None else CONTACT, 8.0 * u)
+        self._sheet.disc((x, y), 8.0 * u, mark, 1.5 * u)
+        tip = x + float(along[0]), y + float(along[1])
+        self._sheet.arrow((x, y), tip, CONTACT if pin.bore else IDEAL, 8.0 * u)
 
 
 def title(scenario: Scenario, pin: PinView | None) -> str:
     """A run in a line: machine, clearances, friction."""
-    words = [_spaced(type(scenario.machine).__name__) + (" in space" if scenario.dimensions == 3 else "")]
-    if pin is not None and pin.bore is not None:
-        contact = pin.bore.pin.contact
+    words = [machine_name(scenario) + (" in space" if scenario.dimensions == 3 else "")]
+    shown = None if pin is None else pin.bore
+    if pin is not None and shown is not None:
+        contact = shown.pin.contact
         coefficient = getattr(contact.friction, "sliding_coefficient", None)
-        friction = (
-            _spaced(type(contact.friction).__name__) if coefficient is None else f"friction {coefficient:g}"
-        )
+        friction = as_words(type(contact.friction).__name__)
+        friction = friction if coefficient is None else f"friction {coefficient:g}"
         clearance = f"radial clearance {1e3 * contact.bearing.clearance:.4g} mm"
-        words.append(f"{pin.name.replace('_', ' ')}: {clearance}, {friction}")
+        words.append(f"{as_words(pin.name)}: {clearance}, {friction}")
     elif not scenario.contact_places:
         words.append("ideal pins")
-    more = len(scenario.clearance_pins) - (pin is not None and pin.bore is not None)
+    more = len(scenario.clearance_pins) - (shown is not None)
     if more > 0:
         words.append(f"{more} more clearance pin{'s' * (more > 1)}")
     for name, guide in scenario.guides.items():
         for part in list(guide.contacts().values())[:1]:  # by how much what slides can go to either side
             play = part.contact.bearing.clearance - abs(part.point[1])
-            words.append(f"{name.replace('_', ' ')}: play \u00b1{1e3 * play:.4g} mm")
+            words.append(f"{as_words(name)}: play \u00b1{1e3 * play:.4g} mm")
     return "  \u00b7  ".join(words)
 
 
-def _spaced(name: str) -> str:
-    """A class's name as words."""
-    return "".join(f" {letter.lower()}" if letter.isupper() else letter for letter in name).strip()
+# --- a journal in its bore, and force over time ---
+
+RING = 1.2  # radius of what is drawn about the bore, of the bore's
+ROUNDING = 1e-6  # of the clearance
+LONGEST_INSIDE = 1.6  # of an arrow, in radii of the bore
+TRAIL = 0.25  # how long the trail of the journal's centre is, in seconds of the movie
+HOUSING, JOURNAL = to_hex(COLOURS[Role.BASE]), to_hex(COLOURS[Role.PIN])
+FLIGHT_TEXT = "#1c7fb5"  # sky blue is too light for letters
+CUT = 1.25  # how far the axis of forces goes beyond what is usual
+
+
+class Inset:
+    """The journal in its bore, with its clearance so much larger that it is seen; draws what does not change.
+
+    Arguments:
+        sheet: to draw on.
+        box: where, a square [pixels].
+        bore: journal in its bore at the records.
+        unit: the factor on lengths of a frame of 1280 x 720.
+        name: of the pin, where there are several insets; these are small, and say less.
+    """
+
+    def __init__(self, sheet: Canvas, box: Box, bore: Bore, unit: float, name: str = "") -> None:
+        self._sheet, self._box, self._bore, self._unit = sheet, box, bore, unit
+        left, top, right, bottom = box
+        self.centre: Point = (0.5 * (left + right), 0.5 * (top + bottom) + 2 * unit)  # of the bore
+        self._radius, gap = 0.5 * (right - left - 62 * unit) / RING, 8 * unit
+        sheet.box(box, "#eef0f2", 6 * unit)
+        sheet.disc(self.centre, RING * self._radius, HOUSING)
+        sheet.disc(self.centre, self._radius, "#ffffff")
+        self.title = f"{as_words(name) or 'clearance'} \u00d7 {format_round(bore.enlargement)}"
+        place = (left + gap, top + gap)
+        sheet.write(place, self.title, 14 * unit, anchor="left top", bold=True, room=right - left - 2 * gap)
+        if name:
+            return
+        if bore.can_tilt:
+            sheet.write((right - gap, top + gap), "middle of the pin", 13 * unit, FAINT, "right top")
+        carrier = "base" if bore.carrier == GROUND else as_words(bore.carrier)
+        sheet.write((left + gap, bottom - gap), f"bore in {carrier}", 13 * unit, FAINT)
+
+    def draw(self, record: int, first: int, force: Point) -> None:
+        """Draw the journal at a record.
+
+        Arguments:
+            first: record at which the trail begins.
+            force: arrow of the force on the journal, to the right and down [pixels].
+        """
+        u, bore, sheet, (x0, y0) = self._unit, self._bore, self._sheet, self.centre
+        path, inner = bore.enlarged(slice(first, record + 1), self._radius)
+        x, y, play = x0 + path[:, 0], y0 - path[:, 1], self._radius - inner
+        at = float(x[-1]), float(y[-1])
+        sheet.disc(at, inner, JOURNAL)
+        sheet.add(Circle(self.centre, play, fill=False, ec="#9a9a9a", lw=1.2 * u, ls=(0, (3.0, 2.5))))
+        before = bore.closed[first:record]
+        for chosen, colour in ((~before, FLIGHT), (before, CONTACT)):
+            if chosen.any():
+                sheet.line(*pieces(x, y, chosen), colour, 2.0 * u)
+        closed = bool(bore.closed[record])
+        colour, word, ink = (CONTACT, "contact", CONTACT) if closed else (FLIGHT, "free flight", FLIGHT_TEXT)
+        if closed:
+            tail, shorter = at, min(1.0, LONGEST_INSIDE * self._radius / max(math.hypot(*force), 1e-9))
+            if (away := math.dist(at, self.centre)) >= (1.0 - ROUNDING) * play:  # on the wall, not tilted
+                out = self._radius / away
+                tail = x0 + out * (at[0] - x0), y0 + out * (at[1] - y0)
+                sheet.disc(tail, 6.0 * u, CONTACT, 1.2 * u)
+            sheet.arrow(tail, (tail[0] + shorter * force[0], tail[1] + shorter * force[1]), CONTACT, 7.0 * u)
+        sheet.disc(at, 4.0 * u, colour, 1.2 * u)
+        place = self._box[2] - 8 * u, self._box[3] - 8 * u
+        sheet.write(place, word, 14 * u, ink, "right baseline", bold=True)
+
+
+class Strip:
+    """Force over time, with a cursor at the time of the frame; draws all but the cursor.
+
+    Arguments:
+        sheet: to draw on.
+        box: of the axes [pixels].
+        time: of the shown records [s].
+        pin: whose force it is; inside: which of its records are shown.
+        span: of the frames, from and to [s].
+        unit: the factor on lengths of a frame of 1280 x 720.
+    """
+
+    def __init__(
+        self, sheet: Canvas, box: Box, time: Series, pin: PinView, inside: np.ndarray,
+        span: tuple[float, float], unit: float,
+    ) -> None:  # fmt: skip
+        self._sheet, self._box, self._unit, self._start = sheet, box, unit, span[0]
+        self._length = max(span[1] - span[0], 1e-12)
+        self._shown = shown = readable("N", float(pin.size[inside].max(initial=0.0)))
+        force = shown.scale * pin.size[inside]
+        peak = float(force.max(initial=0.0))
+        self._top = top = min(CUT * usual(force), 1.08 * peak) if peak > 0.0 else 1.0
+        axes, small, high = sheet.axes_in(box), max(SMALLEST_FONT, 12 * unit), box[1] - 9 * unit
+        axes.set(xlim=(span[0], span[0] + self._length), ylim=(0.0, top))
+        axes.xaxis.set_major_locator(MaxNLocator(10, steps=STEPS))
+        axes.yaxis.set_major_locator(MaxNLocator(4, steps=STEPS))
+        axes.xaxis.set_major_formatter(lambda x, _: f"{x:.6g}")
+        axes.yaxis.set_major_formatter(lambda y, _: format_round(y))
+        axes.spines[:].set_visible(False)
+        axes.tick_params(labelsize=small, labelcolor=FAINT, color=FAINT, pad=4 * unit, width=unit)
+        axes.tick_params("y", length=0.0)
+        axes.grid(axis="y", color=RULE, lw=max(1.0, unit))
+        axes.set_axisbelow(True)
+        name = sheet.write((box[0], high), f"force [{shown.name}] over time [s]", 13 * unit)
+        if peak > top:  # without the peak, which records miss: the page of the run has it
+            text = f"cut off at {top:.3g} {shown.name}"
+            sheet.write((box[2], high), text, 12 * unit, FAINT, "right baseline")
+        force = np.minimum(force, top)
+        if pin.bore is None:
+            axes.plot(time, force, color=IDEAL, lw=1.3 * unit)
+            return
+        handles = [Patch(fc=CONTACT, label="contact"), Patch(fc=FLIGHT, label="free flight")]
+        axes.legend(
+            handles=handles, loc="center left", bbox_to_anchor=(box[0] + sheet.width(name) + 12 * unit, high),
+            ncols=2, bbox_transform=sheet.axes.transData, frameon=False, fontsize=small, handlelength=1.4,
+            handleheight=0.3, handletextpad=0.5, columnspacing=1.5, labelcolor=INK,
+        )  # fmt: skip
+        closed = pin.bore.closed[inside]
+        pressed = closed[1:] | closed[:-1]  # there is a force at one of both records
+        widths = (3.0 * unit, 1.3 * unit)
+        draw_pieces(axes, time, force, pressed, widths, solid_capstyle="butt", clip_on=False)
+
+    def cursor(self, time: float, force: float) -> None:
+        """Draw the cursor at a time [s], with a dot at the force [N]."""
+        u, (left, top, right, bottom) = self._unit, self._box
+        x = left + (time - self._start) / self._length * (right - left)
+        y = bottom - min(self._shown.scale * force / self._top, 1.0) * (bottom - top)
+        self._sheet.line(np.array([x, x]), np.array([top, bottom]), INK, 1.4 * u)
+        self._sheet.disc((x, y), 4.5 * u, INK, 1.2 * u)

@@ -14,7 +14,7 @@ from PIL.ImageColor import getrgb
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.postprocessing.figures.selection import nearest
 from support_exudyn.postprocessing.figures.style import CONTACT, FLIGHT
-from support_exudyn.postprocessing.render.sheet import INK
+from support_exudyn.postprocessing.render.canvas import INK
 from support_exudyn.scene.contract import Progress
 from user_forces.values.value import InputError
 
@@ -142,18 +142,13 @@ def check(kind: str, rate: float, frames: int) -> None:
 
 def write(kind: str, path: Path, frames: Sequence[Path], rate: float, progress: Progress) -> None:
     """Write a movie of a kind to a path; rate: frames a second."""
-    {"gif": _gif, "mp4": _mp4}[kind](path, frames, rate, progress)
-
-
-def durations(number: int, rate: float) -> list[int]:
-    """The durations of the frames of a GIF [ms]: hundredths of a second that add up to the movie's length."""
-    ends = [round(100.0 * (n + 1) / rate) for n in range(number)]
-    return [10 * (end - start) for start, end in zip([0, *ends], ends, strict=False)]
+    (_gif if kind == "gif" else _mp4)(path, frames, rate, progress)
 
 
 def _gif(path: Path, frames: Sequence[Path], rate: float, progress: Progress) -> None:
     """One palette for all, and no dots in between, so that what stands still costs nothing."""
-    palette = _palette([frames[n] for n in np.unique(np.linspace(0, len(frames) - 1, SAMPLED).astype(int))])
+    samples = [frames[n] for n in np.unique(np.linspace(0, len(frames) - 1, SAMPLED).astype(int))]
+    palette = _palette(Image.fromarray(np.concatenate([np.asarray(_shrunk(one)) for one in samples])))
 
     def reduced() -> Iterator[Image.Image]:
         for number, frame in enumerate(frames):
@@ -161,24 +156,18 @@ def _gif(path: Path, frames: Sequence[Path], rate: float, progress: Progress) ->
             progress((number + 1) / len(frames))
 
     images = reduced()
-    first = next(images)
+    # hundredths of a second that add up to the movie's length
+    ends = np.round(100.0 * np.arange(len(frames) + 1) / rate).astype(int)
+    durations = (10 * np.diff(ends)).tolist()
     with path.open("wb") as file:
-        first.save(
-            file,
-            format="GIF",
-            save_all=True,
-            append_images=images,
-            duration=durations(len(frames), rate),
-            loop=0,
-            optimize=False,
+        next(images).save(
+            file, format="GIF", save_all=True, append_images=images, duration=durations, loop=0, optimize=False
         )
 
 
-def _palette(samples: Sequence[Path]) -> Image.Image:
-    """The colours that some frames have most, and those that have a meaning."""
-    pictures = [np.asarray(_shrunk(sample)) for sample in samples]
-    wall = Image.fromarray(np.concatenate(pictures))
-    most = wall.quantize(COLOURS - len(ALWAYS), method=Image.Quantize.MEDIANCUT).getpalette() or []
+def _palette(sample: Image.Image) -> Image.Image:
+    """The colours that a picture has most, and those that have a meaning."""
+    most = sample.quantize(COLOURS - len(ALWAYS), method=Image.Quantize.MEDIANCUT).getpalette() or []
     chosen = [part for colour in ALWAYS for part in getrgb(colour)] + most[: 3 * (COLOURS - len(ALWAYS))]
     palette = Image.new("P", (1, 1))
     palette.putpalette([255 if part > NEARLY_WHITE else part for part in chosen])
@@ -189,10 +178,10 @@ def _shrunk(path: Path) -> Image.Image:
     """A frame, no wider than a GIF's."""
     with Image.open(path) as opened:
         frame = opened.convert("RGB")
-    if frame.width <= WIDEST_GIF:
-        return frame
-    height = round(frame.height * WIDEST_GIF / frame.width)
-    return frame.resize((WIDEST_GIF, height), Image.Resampling.LANCZOS)
+    if frame.width > WIDEST_GIF:
+        height = round(frame.height * WIDEST_GIF / frame.width)
+        frame = frame.resize((WIDEST_GIF, height), Image.Resampling.LANCZOS)
+    return frame
 
 
 def _ffmpeg() -> Any:
@@ -208,14 +197,9 @@ def _mp4(path: Path, frames: Sequence[Path], rate: float, progress: Progress) ->
     with Image.open(frames[0]) as first:
         size = first.size
     writer = _ffmpeg().write_frames(
-        str(path),
-        size,
-        fps=rate,
-        codec="libx264",
-        quality=QUALITY,
-        macro_block_size=2,
+        str(path), size, fps=rate, codec="libx264", quality=QUALITY, macro_block_size=2,
         ffmpeg_log_level="error",
-    )
+    )  # fmt: skip
     writer.send(None)
     try:
         for number, frame in enumerate(frames):

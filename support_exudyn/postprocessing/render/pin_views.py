@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.pins import ClearancePin
-from support_exudyn.postprocessing.look.poses import Poses, placed_pins
+from support_exudyn.postprocessing.look.poses import PlacedPin, Poses, placed_pins
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError, short
 
@@ -40,9 +40,18 @@ class Bore:
 
     @property
     def enlargement(self) -> float:
-        """By how much the clearance is enlarged in pictures, so that it is seen."""
+        """The factor by which the clearance is enlarged in pictures, so that it is seen."""
         bearing = self.pin.contact.bearing
         return max(1.0, round_up(SHOWN * bearing.bore_radius / bearing.clearance))
+
+    def enlarged(self, records: int | slice, radius: float) -> tuple[Series, float]:
+        """The journal's centre from the bore's, and the journal's radius, in a picture.
+
+        radius: of the drawn bore, in any unit, which is that of the results.
+        """
+        bearing = self.pin.contact.bearing
+        scale = self.enlargement * radius / bearing.bore_radius
+        return scale * self.eccentricity[records], radius - scale * bearing.clearance
 
 
 @dataclass(frozen=True)
@@ -51,7 +60,7 @@ class PinView:
 
     Arguments:
         name: of the pin, as the channels know it.
-        on: on which body, or journal, the force acts.
+        on: the body, or the journal, on which the force acts.
         force: forward and up, shape (n, 2) [N].
         path: where the pin is, shape (n, 3) [m].
         bore: None if the pin is ideal.
@@ -70,19 +79,29 @@ class PinView:
         return size
 
 
-def pin_view(result: Result, name: str | None = None) -> PinView | None:
-    """A pin by its name; None: the first with clearance, or the first of all, or nothing without pins.
+def pin_views(result: Result, name: str | None = None) -> list[PinView]:
+    """A pin by its name, then all other clearance pins whose force and journal were recorded.
 
-    Raises InputError if there is no such pin, or if a channel that this needs was not recorded.
+    Without a name the first pin with clearance, or the first of all; nothing of runs without pins.
+
+    Raises InputError if there is no such pin, or if a channel that it needs was not recorded.
     """
     pins = sorted(placed_pins(result.scenario), key=lambda pin: pin.with_clearance is None)
-    known = {pin.name: pin for pin in pins}
-    if name is None and not known:
-        return None
-    if name is not None and name not in known:
-        raise InputError(f"pin = {short(name)}: no such pin; allowed: {', '.join(known) or 'none'}")
-    pin = pins[0] if name is None else known[name]
+    chosen = pins[0] if pins and name is None else next((pin for pin in pins if pin.name == name), None)
+    if chosen is None:
+        if name is None:
+            return []
+        known = ", ".join(pin.name for pin in pins) or "none"
+        raise InputError(f"pin = {short(name)}: no such pin; allowed: {known}")
+    views = [_view(result, chosen)]
+    for pin in pins:
+        if pin.with_clearance is not None and pin is not chosen:
+            with suppress(InputError):  # not recorded
+                views.append(_view(result, pin))
+    return views
 
+
+def _view(result: Result, pin: PlacedPin) -> PinView:
     def vector(what: str) -> Series:
         return np.column_stack([result.recorded(f"pin.{pin.name}.{what}_{axis}", WHY) for axis in "xy"])
 
@@ -92,19 +111,8 @@ def pin_view(result: Result, name: str | None = None) -> PinView | None:
         return PinView(pin.name, pin.second.body.replace("_", " "), force, path, None)
     in_space = result.scenario.dimensions == 3
     ends = [vector(f"{side}eccentricity") for side in (("left_", "right_") if in_space else ("",))]
-    closed = np.hypot(*force.T) > 0.0
-    bore = Bore(pin.with_clearance, np.mean(ends, axis=0), closed, pin.bore.body, in_space)
+    bore = Bore(pin.with_clearance, np.mean(ends, axis=0), np.hypot(*force.T) > 0.0, pin.bore.body, in_space)
     return PinView(pin.name, "journal", force, path, bore)
-
-
-def pin_views(result: Result, name: str | None = None) -> list[PinView]:
-    """A pin as `pin_view` gives it, then all other clearance pins whose force and journal were recorded."""
-    views = [view for view in [pin_view(result, name)] if view is not None]
-    for pin in placed_pins(result.scenario):
-        if views and pin.with_clearance is not None and pin.name != views[0].name:
-            with suppress(InputError):  # not recorded
-                views += [view for view in [pin_view(result, pin.name)] if view is not None]
-    return views
 
 
 # --- round numbers for scales ---
@@ -118,17 +126,12 @@ def round_up(number: float) -> float:
     return next(step * power for step in STEPS if step * power >= number * (1.0 - 1e-9))
 
 
-def round_down(number: float) -> float:
-    """The last of ..., 1, 2, 5, 10, ... that is not above it; 1 for what is not above 0."""
-    return 1.0 / round_up(1.0 / number) if number > 0.0 else 1.0
-
-
 def usual(sizes: Series) -> float:
     """A size that nearly all, without those that are 0, do not exceed; 1 if there are none."""
     there = sizes[sizes > 0.0]
     return float(np.quantile(there, MOST)) if there.size else 1.0
 
 
-def said(number: float) -> str:
+def format_round(number: float) -> str:
     """A round number as it is written."""
     return f"{number:,.0f}".replace(",", " ") if number >= 1.0 else f"{number:g}"

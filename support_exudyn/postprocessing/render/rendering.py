@@ -16,8 +16,7 @@ from support_exudyn.postprocessing.render.frame import Layout, Painter
 from support_exudyn.postprocessing.render.movie import Moments, moment, moments
 from support_exudyn.postprocessing.render.pin_views import pin_views
 from support_exudyn.postprocessing.render.scene import RenderedScene
-from support_exudyn.postprocessing.render.sheet import Image as Picture
-from support_exudyn.postprocessing.render.stage import Stage
+from support_exudyn.postprocessing.render.stage import Picture, Stage
 from support_exudyn.scene.contract import Progress, silent
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
@@ -91,23 +90,21 @@ def render(
     names = [NAME.format(n) for n in range(shown.times.size)]
     earlier = {old.name for old in folder.glob(FRAME) if old.stem[len("frame_") :].isdigit() and _is_ours(old)}
     share = FRAMES_SHARE if target else 1.0
-    with whole_set(folder, names, (), earlier) as made:
+    with whole_set(folder, names, earlier) as made:
         paths = [made / name for name in names]
         with ThreadPoolExecutor(1) as painters:  # paints and writes while the next one is traced
-            painted: Future[None] | None = None
+            painted: list[Future[None]] = []
             for n, path in enumerate(paths):
                 machine = show.machine(n)
-                if painted is not None:
-                    painted.result()
-                painted = painters.submit(show.save, machine, n, path)
+                if painted:
+                    painted.pop().result()
+                painted.append(painters.submit(show.save, machine, n, path))
                 progress(share * (n + 1) / len(paths))
-            assert painted is not None  # there is a frame
-            painted.result()
+            painted.pop().result()
         if target is not None:
             with whole_file(target) as temporary:
-                movies.write(
-                    movie, temporary, paths, frames_per_second, lambda s: progress(share + (1.0 - share) * s)
-                )
+                rest = 1.0 - share
+                movies.write(movie, temporary, paths, frames_per_second, lambda s: progress(share + rest * s))
     return Rendered(tuple(folder / name for name in names), target)
 
 
@@ -129,22 +126,23 @@ class _Show:
     """A run on its stage, with the painter of its frames."""
 
     def __init__(self, result: Result, size: tuple[int, int], pin: str | None, shown: Moments) -> None:
-        _check_size(size)
-        self._scene = RenderedScene(result)
-        self._shown = shown
+        for name, number, low, high in zip(("width", "height"), size, SMALLEST, LARGEST, strict=True):
+            if not low <= number <= high or number % 2:
+                raise InputError(f"size: {name} = {number} pixels: allowed: even, from {low} to {high}")
+        self._scene, self._shown = RenderedScene(result), shown
         views = pin_views(result, pin)
         layout = Layout(*size, bool(views))
         left, top, right, bottom = layout.picture
         self._camera = camera = self._scene.camera(right - left, bottom - top)
-        self._stage = Stage(self._scene.props(), camera, _processors())
+        self._stage = Stage(self._scene.items(), camera, _processors())
         self._painter = Painter(self._scene, layout, camera, views, shown)
         self._traced: tuple[np.ndarray, Picture] | None = None
 
     def machine(self, number: int) -> Picture:
-        """The machine alone, of a frame; that of an earlier one if nothing is seen to have moved since."""
+        """The machine alone, of a frame; that of an earlier one if nothing has visibly moved since."""
         record = int(self._shown.records[number])
         where = self._camera.pixels(self._scene.corners(record))
-        if self._traced is None or _has_moved(self._traced[0], where):
+        if self._traced is None or np.abs(where - self._traced[0]).max() > SEEN:
             self._traced = where, self._stage.image(self._scene.places(record))
         return self._traced[1]
 
@@ -154,36 +152,22 @@ class _Show:
 
     def save(self, machine: Picture, number: int, path: Path) -> None:
         """Write it."""
-        said = PngInfo()
-        said.add_text("Software", MAKER)
+        text = PngInfo()
+        text.add_text("Software", MAKER)
         frame = Image.fromarray(self.frame(machine, number))
-        frame.save(path, format="PNG", compress_level=QUICKLY, pnginfo=said)
-
-
-def _has_moved(before: np.ndarray, now: np.ndarray) -> bool:
-    """Whether any of the places (n, 2) [pixels] has moved so far that it is seen."""
-    return bool(np.abs(now - before).max() > SEEN)
+        frame.save(path, format="PNG", compress_level=QUICKLY, pnginfo=text)
 
 
 def _processors() -> int:
     """The number of processors that this process may use."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
-
-
-def _check_size(size: tuple[int, int]) -> None:
-    for name, number, low, high in zip(("width", "height"), size, SMALLEST, LARGEST, strict=True):
-        if not low <= number <= high or number % 2:
-            raise InputError(f"size: {name} = {number} pixels: allowed: even, from {low} to {high}")
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def _movie_path(folder: Path, kind: str, path: str | Path | None) -> Path | None:
     if kind == "none":
         return None
-    if path is not None:
-        return Path(path)
-    return folder.with_name(f"{folder.name.removesuffix('_frames') or folder.name}.{kind}")
+    named = folder.with_name(f"{folder.name.removesuffix('_frames') or folder.name}.{kind}")
+    return named if path is None else Path(path)
 
 
 def _is_ours(path: Path) -> bool:

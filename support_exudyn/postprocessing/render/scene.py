@@ -1,24 +1,28 @@
-"""A run as a scene: the machine's surfaces, what stands around them, and where all of it is at a record."""
+"""A run as a scene: the machine's surfaces, what stands around a shield support, and where all of it is.
+
+Around a support stand floor, roof, coal face, and the broken rock of the goaf. Roof, coal face and goaf are cut
+through in the plane of symmetry, so that they hide nothing of the machine.
+"""
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from shapely.geometry import Polygon, box
 
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.loads.roofs import Roof
 from support_exudyn.postprocessing.look.looks import look
-from support_exudyn.postprocessing.look.poses import MovingPart, Poses, moving_parts
-from support_exudyn.postprocessing.look.solid import COLOURS, Look, Role
+from support_exudyn.postprocessing.look.poses import Poses
+from support_exudyn.postprocessing.look.shapes import COLOURS, Colour, Look, Role, Shape, plate
 from support_exudyn.postprocessing.render.pin_views import PinView
-from support_exudyn.postprocessing.render.scenery import GAP, Label, Surroundings, surroundings
-from support_exudyn.postprocessing.render.stage import Camera, MeshItem, fitted
+from support_exudyn.postprocessing.render.stage import Camera, MeshItem
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import Vector3
 
-LOOKED_AT = 33  # records, spread over the run, by which the picture's frame is chosen
-UNTURNED = np.eye(3)
-NOWHERE = np.zeros(3)
+STATES = 33  # records, spread over the run, by which the picture's frame is chosen
+UNTURNED, NOWHERE = np.eye(3), np.zeros(3)
 
 
 class RenderedScene:
@@ -27,33 +31,34 @@ class RenderedScene:
     def __init__(self, result: Result) -> None:
         self.result = result
         self.look: Look = look(result.scenario)
-        self.parts = moving_parts(self.look, Poses(result))
-        self.records = np.unique(np.linspace(0, result.time.size - 1, LOOKED_AT).astype(int)).tolist()
+        self._poses = Poses(result)
+        self._records = np.unique(np.linspace(0, result.time.size - 1, STATES).astype(int)).tolist()
+
+    def _hull(self, shape: Shape, record: int) -> Series:
+        """The outermost points of a shape (n, 3) [m]."""
+        return self._poses.frame(shape, record).points(shape.mesh.convex_hull.vertices)
 
     @cached_property
     def points(self) -> Series:
-        """The outermost points of the machine at these records, shape (n, 3) [m]."""
-        return np.concatenate([self._hull(part, record) for part in self.parts for record in self.records])
+        """The outermost points of the machine at some records, shape (n, 3) [m]."""
+        return np.concatenate([self._hull(one, record) for one in self.look.shapes for record in self._records])
 
     def corners(self, record: int) -> Series:
         """The corners of boxes around all that may move, at a record, shape (n, 3) [m]."""
-        found = [part.frame(record).points(part.mesh.bounding_box.vertices) for part in self.parts]
+        shapes = self.look.shapes
+        corners = [self._poses.frame(one, record).points(one.mesh.bounding_box.vertices) for one in shapes]
         if self.surroundings is not None:
-            found.append(np.array([[0.0, self.roof(record), 0.0]]))
-        return np.concatenate(found)
-
-    def _hull(self, part: MovingPart, record: int) -> Series:
-        """The outermost points of a part (n, 3) [m]."""
-        return part.frame(record).points(part.mesh.convex_hull.vertices)
+            corners.append(np.array([[0.0, self.roof(record), 0.0]]))
+        return np.concatenate(corners)
 
     @cached_property
-    def surroundings(self) -> Surroundings | None:
+    def surroundings(self) -> "Surroundings | None":
         """The surroundings of a support; None of machines without a canopy."""
-        canopies = [part for part in self.parts if part.role is Role.CANOPY]
+        canopies = [shape for shape in self.look.shapes if shape.role is Role.CANOPY]
         if not canopies:
             return None
         length = float(np.ptp(self.points[:, 0]))
-        highest = max(self._hull(one, record)[:, 1].max() for one in canopies for record in self.records)
+        highest = max(self._hull(one, record)[:, 1].max() for one in canopies for record in self._records)
         half_width = float(np.abs(self.points[:, 2]).max())
         roof = self._face(0)
         height = highest + 0.25 * GAP * length if roof is None else roof
@@ -61,27 +66,27 @@ class RenderedScene:
 
     def _face(self, record: int) -> float | None:
         """Height of the lowest roof that presses on the canopy, at its upper face [m]; None without one."""
-        found = []
+        heights = []
         for load in self.result.scenario.acting_loads.values():
             if isinstance(load, Roof):
-                solids = [solid for solid in self.look.solids if solid.body == load.body]
-                top = max((solid.mesh.bounds[1, 1] for solid in solids), default=load.point[1])
-                found.append(top + load.gap - load.descent.extension(float(self.result.time[record])))
-        return min(found, default=None)
+                tops = [shape.mesh.bounds[1, 1] for shape in self.look.of(load.body)]
+                descent = load.descent.extension(float(self.result.time[record]))
+                heights.append(max(tops, default=load.point[1]) + load.gap - descent)
+        return min(heights, default=None)
 
-    def props(self) -> list[MeshItem]:
-        """All surfaces, each in axes of its own."""
-        found = [MeshItem(part.mesh, COLOURS[part.role]) for part in self.parts]
+    def items(self) -> list[MeshItem]:
+        """All surfaces, each in axes of its own: the machine's, what stands still, the roof."""
+        machine = [MeshItem(shape.mesh, COLOURS[shape.role]) for shape in self.look.shapes]
         around = self.surroundings
-        return found if around is None else [*found, *around.props, around.roof]
+        return machine if around is None else [*machine, *around.still, around.roof]
 
     def places(self, record: int) -> Iterator[tuple[Series, Series]]:
         """The place (3,) [m] and the turn (3, 3) of each of these at a record."""
-        for part in self.parts:
-            frame = part.frame(record)
+        for shape in self.look.shapes:
+            frame = self._poses.frame(shape, record)
             yield frame.origin, frame.axes
         if self.surroundings is not None:
-            yield from ((NOWHERE, UNTURNED) for _ in self.surroundings.props)
+            yield from ((NOWHERE, UNTURNED) for _ in self.surroundings.still)
             yield np.array([0.0, self.roof(record), 0.0]), UNTURNED
 
     def roof(self, record: int) -> float:
@@ -94,10 +99,9 @@ class RenderedScene:
         """The camera that sees all of it over the whole run."""
         around = self.surroundings
         points = self.points if around is None else np.concatenate([self.points, around.points])
-        margin = max(2, round(0.02 * height))
-        return fitted(points, width, height, (margin, margin, margin, margin))
+        return Camera.fitted(points, width, height, max(2, round(0.02 * height)))
 
-    def labels(self, record: int) -> list[Label]:
+    def labels(self, record: int) -> "list[Label]":
         """The words that are written into the picture."""
         if self.surroundings is None:
             return []
@@ -105,8 +109,90 @@ class RenderedScene:
         x, y, z = word.place
         return [*self.surroundings.labels, Label(word.text, (x, y + self.roof(record), z), word.light)]
 
-    def context(self, pin: PinView, record: int) -> Vector3:
-        """The place of that end of a pin which the camera sees [m]."""
+    def front_of(self, pin: PinView, record: int) -> Vector3:
+        """The place of the end of a pin which the camera sees [m]."""
         x, y, _ = pin.path[record]
-        ends = [s.mesh.bounds[1, 2] for s in self.look.solids if s.name.startswith(f"pin_{pin.name}")]
+        ends = [one.mesh.bounds[1, 2] for one in self.look.shapes if one.name.startswith(f"pin_{pin.name}")]
         return float(x), float(y), float(max(ends, default=self.points[:, 2].max()))
+
+
+# --- around a support ---
+
+FLOOR: Colour = (0.74, 0.72, 0.68)
+ROOF: Colour = (0.66, 0.64, 0.61)
+COAL: Colour = (0.23, 0.23, 0.25)
+ROCK: Colour = (0.53, 0.51, 0.49)
+STEEP = 0.5  # how far the heap leans back, of its depth
+GAP = 0.02  # between things that do not make contact, of the machine's length
+BEHIND = 0.30  # how far the goaf reaches, of the machine's length
+BROKEN = [
+    (0.05, 0.0),
+    (0.0, 0.35),
+    (0.03, 0.6),
+    (-0.03, 1.0),
+]  # edge of the roof: of the length, of its thickness
+
+
+@dataclass(frozen=True)
+class Label:
+    """A word in the picture, with its middle at a point in space."""
+
+    text: str
+    place: Vector3
+    light: bool = False  # on a dark face
+
+
+@dataclass(frozen=True)
+class Surroundings:
+    """The things that do not move, the roof, and their names.
+
+    Arguments:
+        still: in ground's axes.
+        roof: its lower face at the height 0; it is put at `roof_height` [m].
+        labels: names of things; that of the roof is measured from its lower face.
+        points: corners that should be in the picture (n, 3) [m].
+    """
+
+    still: tuple[MeshItem, ...]
+    roof: MeshItem
+    roof_height: float
+    labels: tuple[Label, ...]
+    roof_label: Label
+    points: Series
+
+
+def surroundings(machine: Series, floor: float, roof_height: float, half_width: float) -> Surroundings:
+    """The surroundings of a machine.
+
+    Arguments:
+        machine: points of its surface at all times (n, 3) [m].
+        floor: height of the ground [m].
+        roof_height: of the roof's lower face, at the start of a picture [m].
+        half_width: of the machine [m].
+    """
+    rear, front = float(machine[:, 0].min()), float(machine[:, 0].max())
+    length, deep, height = front - rear, half_width, roof_height - floor
+    thick, face, back = 0.085 * length, front + 2.0 * GAP * length, rear - GAP * length
+    left, right, edge = face + 0.085 * length, back - BEHIND * length, back - 0.02 * length
+    heap = floor + 0.82 * height
+    behind = Polygon([(right, floor), (back, floor), (back - STEEP * (back - right), heap), (right, heap)])
+    crack = [(edge + x * length, y * thick) for x, y in BROKEN]
+    still = (
+        MeshItem(plate(box(right, floor - 0.035 * length, left, floor), 0.125 * deep, 2.25 * deep), FLOOR),
+        MeshItem(plate(box(face, floor, left, roof_height + thick), -0.5 * deep, deep), COAL),
+        MeshItem(plate(behind, -0.5 * deep, deep), ROCK),
+    )
+    corners = [item.mesh.bounding_box.vertices for item in still]
+    above = np.array([[face, roof_height + thick, -deep], [edge, roof_height + thick, -deep]])
+    return Surroundings(
+        still,
+        MeshItem(plate(Polygon([(face, 0.0), *crack, (face, thick)]), -0.5 * deep, deep), ROOF),
+        roof_height,
+        (
+            Label("coal\nface", (0.5 * (face + left), floor + 0.5 * height, 0.0), light=True),
+            Label("floor", (face - 0.16 * length, floor - 0.0175 * length, 1.25 * deep)),
+            Label("goaf", (right + 0.22 * (back - right), floor + 0.95 * height, 0.0)),
+        ),
+        Label("roof", (0.5 * (face + edge), 0.5 * thick, 0.0)),
+        np.concatenate([*corners, above]),
+    )

@@ -15,15 +15,15 @@ import numpy as np
 from exudyn.basicUtilities import SetSolutionState
 
 from support_exudyn.formulations.engine_settings import quiet_engine
-from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.postprocessing.export.solution_file import Solution, check_fits, read_solution, rows
-from support_exudyn.postprocessing.render.pin_views import PinView, pin_views
+from support_exudyn.postprocessing.figures.selection import machine_name
+from support_exudyn.postprocessing.render.pin_views import pin_views
 from support_exudyn.postprocessing.viewer.viewer_model import SHOWN, ViewerModel, model_for_viewer
 from support_exudyn.simulation.provenance import installed
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError, short
 
-# --- whether the engine can open a window here, asked without risk ---
+# --- whether the engine can open a window here, tried in a process of its own ---
 
 LONGEST = 120.0  # [s] that trying may take, of a slow machine or a distant display
 TRY = """
@@ -93,22 +93,12 @@ def check_display() -> None:
 MADE_WITH = ("exudyn", "support-exudyn")  # packages on which the model depends
 WINDOW = (1200, 750)  # width and height [pixels]
 FRAME = 0.04  # [s]
-LASTS = 10.0  # [s] that a run takes in the viewer unless asked otherwise
+LASTS = 10.0  # [s] that a run takes in the viewer by default
 MOST_SKIPPED = 200  # rows from frame to frame, as many as the viewer's slider has
-MOST_LOOKED_AT = 60  # states by which the camera is set
+MOST_STATES = 60  # by which the camera is set
 MARGIN = 1.15  # of what is seen, over what the machine needs
 WORDS = 0.15  # of the window's height, on top, where the engine writes name and time
-FROM_THE_SIDE = (0.0, pi, 0.0)  # rotation vector: one looks along +z, with the goaf (-x) on the right
-
-
-def differing_versions(result: Result) -> list[str]:
-    """Sentences on the packages that are not those a run was made with."""
-    return [
-        f"made with {name} {result.provenance.get(name, 'of an unknown version')}, and {installed(name)} is "
-        "installed: the model may not be exactly the one that was run"
-        for name in MADE_WITH
-        if result.provenance.get(name) != installed(name)
-    ]
+FROM_THE_SIDE = [0.0, pi, 0.0]  # rotation vector: the view is along +z, with the goaf (-x) on the right
 
 
 def open_viewer(
@@ -130,27 +120,15 @@ def open_viewer(
         from exudyn.interactive import SolutionViewer  # which needs tkinter
 
         count = int(shown.solution["nRows"])
+        most = min(MOST_SKIPPED, count)
+        if every is None:
+            every = max(1, min(MOST_SKIPPED, round(count * FRAME / LASTS)))
+        elif isinstance(every, bool) or not isinstance(every, int) or not 1 <= every <= most:
+            raise InputError(f"every = {short(every)}: allowed: a whole number from 1 to {most}")
         SolutionViewer(
-            shown.model.scene.mbs,
-            shown.solution,
-            rowIncrement=every_row(count) if every is None else checked_every(every, count),
-            timeout=FRAME,
-            runMode=0,
+            shown.model.scene.mbs, shown.solution, rowIncrement=every, timeout=FRAME, runMode=0,
             title=f"{title(result, name)}: solution viewer",
-        )
-
-
-def every_row(count: int) -> int:
-    """Rows from frame to frame with which so many take about 10 s."""
-    return max(1, min(MOST_SKIPPED, round(count * FRAME / LASTS)))
-
-
-def checked_every(every: int, count: int) -> int:
-    """Raise InputError unless it can be so many rows from frame to frame; there are `count`."""
-    most = min(MOST_SKIPPED, count)
-    if isinstance(every, bool) or not isinstance(every, int) or not 1 <= every <= most:
-        raise InputError(f"every = {short(every)}: allowed: a whole number from 1 to {most}")
-    return every
+        )  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -163,12 +141,16 @@ class Window:
     model: ViewerModel
     solution: Solution
 
-    def show(self, row: int) -> None:
-        """Show a row, which is a record of the run; raises InputError if there is none."""
+    def set_row(self, row: int) -> None:
+        """Set the engine's state that is drawn to a row; raises InputError if there is none."""
         count = self.solution["nRows"]
         if not 0 <= row < count:
             raise InputError(f"row = {short(row)}: allowed: from 0 to {count - 1}")
-        _show(self.model, self.solution, row)
+        SetSolutionState(self.model.scene.mbs, self.solution, row, SHOWN)
+
+    def show(self, row: int) -> None:
+        """Show a row, which is a record of the run; raises InputError if there is none."""
+        self.set_row(row)
         renderer = self.model.scene.container.renderer
         renderer.SendRedrawSignal()
         renderer.DoIdleTasks(0)  # what moves by itself, actuators, is drawn by Python
@@ -182,6 +164,22 @@ class Window:
         """The picture in the window: RGB (height, width, 3) of 8 bits."""
         return np.array(self.model.scene.container.renderer.RedrawAndGetImage())
 
+    def camera(self, size: tuple[int, int]) -> tuple[float, list[float]]:
+        """Half the height that is seen at all rows [m], and the centre of the view in the screen's axes [m]."""
+        model = self.model
+        corners = [model.insets.corners]
+        for row in np.unique(np.linspace(0, self.solution["nRows"] - 1, MOST_STATES).astype(int)):
+            self.set_row(int(row))
+            for shape in model.look.shapes:
+                box = [(shape.body, point) for point in shape.mesh.bounding_box.vertices.tolist()]
+                ends = box if shape.strut is None else shape.strut.ends
+                corners.append(np.array([model.place(body, point) for body, point in ends]))
+        points = np.concatenate(corners)
+        low, high = points.min(axis=0), points.max(axis=0)
+        high[1] = low[1] + (high[1] - low[1]) / (1.0 - WORDS)
+        (x, y, z), (width, height, _) = 0.5 * (low + high), high - low
+        return 0.5 * MARGIN * max(height, width * size[1] / size[0]), [-x, y, -z]
+
 
 @contextmanager
 def window(
@@ -191,10 +189,19 @@ def window(
 
     Arguments, and what is raised, are those of `open_viewer`; size: width and height of the window [pixels].
     """
-    for sentence in differing_versions(result):
-        print(f"warning: {sentence}", file=sys.stderr)
+    for package in MADE_WITH:
+        if (made := result.provenance.get(package, "of an unknown version")) != installed(package):
+            print(
+                f"warning: made with {package} {made}, and {installed(package)} is installed: the model may "
+                "not be exactly the one that was run",
+                file=sys.stderr,
+            )
     read = None if solution is None else read_solution(solution)
-    model = model_for_viewer(result.scenario, _views(result), result.time)
+    try:
+        views = pin_views(result)
+    except InputError:  # not recorded
+        views = []
+    model = model_for_viewer(result.scenario, views, result.time)
     container = model.scene.container
     try:
         if read is not None and solution is not None:
@@ -202,10 +209,10 @@ def window(
         check_display()
         shown = Window(model, rows(result, model.scene) if read is None else read)
         _prepare(container.visualizationSettings, title(result, name), size)
-        zoom, centre = _camera(model, shown.solution, size)
+        zoom, centre = shown.camera(size)
         with quiet_engine():
             container.renderer.Start()
-            container.renderer.SetModelView(zoom, list(FROM_THE_SIDE), centre)
+            container.renderer.SetModelView(zoom, FROM_THE_SIDE, centre)
             shown.show(0)
             yield shown
     finally:
@@ -214,25 +221,16 @@ def window(
         model.scene.release()
 
 
-def _views(result: Result) -> list[PinView]:
-    """The clearance pins that are shown beside the machine; none of runs that have not recorded them."""
-    try:
-        return pin_views(result)
-    except InputError:
-        return []
-
-
 def title(result: Result, name: str = "") -> str:
     """A run in a few words."""
-    machine = type(result.scenario.machine).__name__
     space = "in space" if result.scenario.dimensions == 3 else "in the plane"
     formulation = result.scenario.formulation
     by = "" if formulation == "auto" else f"formulation {formulation}"
-    return ", ".join(filter(None, [name, f"{machine} {space}", by]))
+    return ", ".join(filter(None, [name, f"{machine_name(result.scenario)} {space}", by]))
 
 
 def _prepare(settings: Any, text: str, size: tuple[int, int]) -> None:
-    """The machine, its time and its name, and nothing of what the engine knows besides."""
+    """Show the machine, its time and its name, and no other items of the engine."""
     for group in (settings.nodes, settings.markers, settings.connectors, settings.loads, settings.sensors):
         group.show = False
     settings.general.autoFitScene = False  # the camera stands still
@@ -244,34 +242,6 @@ def _prepare(settings: Any, text: str, size: tuple[int, int]) -> None:
     settings.view0.window.showComputationInfo = True
     settings.openGL.multiSampling = 4
     settings.openGL.lineWidth = 2.0
-    # the stronger light on the side from which one looks
+    # the stronger light on the side from which the machine is seen
     settings.openGL.light0.position = [-2.0, 4.0, -10.0, 0.0]
     settings.openGL.light1.position = [2.0, 4.0, 10.0, 0.0]
-
-
-def _camera(model: ViewerModel, solution: Solution, size: tuple[int, int]) -> tuple[float, list[float]]:
-    """Half the height that is seen [m], and where one looks in the axes of the screen [m]: at all rows."""
-    low, high = reach(model, solution)
-    high[1] = low[1] + (high[1] - low[1]) / (1.0 - WORDS)
-    x, y, z = 0.5 * (low + high)
-    width, height = high[0] - low[0], high[1] - low[1]
-    return 0.5 * MARGIN * max(height, width * size[1] / size[0]), [-x, y, -z]
-
-
-def reach(model: ViewerModel, solution: Solution) -> tuple[Series, Series]:
-    """The least and largest coordinates (3,) that anything drawn has in any of the rows [m]."""
-    corners: list[Series] = []
-    for row in np.unique(np.linspace(0, solution["nRows"] - 1, MOST_LOOKED_AT).astype(int)):
-        _show(model, solution, int(row))
-        for solid in model.look.solids:
-            box = solid.mesh.bounding_box.vertices.tolist()
-            corners += [model.place(solid.body, (x, y, z)) for x, y, z in box]
-        for strut in model.look.struts:
-            corners += [model.place(strut.foot, strut.foot_point), model.place(strut.head, strut.head_point)]
-    points = np.concatenate([np.array(corners), model.insets.corners])
-    return points.min(axis=0), points.max(axis=0)
-
-
-def _show(model: ViewerModel, solution: Solution, row: int) -> None:
-    """Let the engine's state that is drawn be a row."""
-    SetSolutionState(model.scene.mbs, solution, row, exudyn.ConfigurationType.Visualization)

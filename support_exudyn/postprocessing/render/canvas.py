@@ -1,31 +1,27 @@
-"""A picture on which matplotlib draws in pixels: what stands still once, what moves anew on every frame."""
+"""A figure of matplotlib that counts in pixels: what is drawn once, and what changes from frame to frame."""
 
 import math
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, FancyArrow, FancyBboxPatch
 from matplotlib.patheffects import withStroke
 from matplotlib.text import Text
 
 from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.postprocessing.render.stage import Picture
 
-Image = npt.NDArray[np.uint8]  # height, width, 3
 Point = tuple[float, float]
 Box = tuple[int, int, int, int]  # left, top, right, bottom [pixels]
 POINTS = 72  # pixels to an inch: sizes of letters and lines, in points, are pixels
 SMALLEST_FONT = 6.0  # [pixels]
 SHORTEST = 1.8  # length of an arrow that is drawn, of its shaft's thickness
 HEAD = 0.42  # half width of an arrow's head, of its length
-INK = "#1a1a1a"
-FAINT = "#6b6b6b"
-RULE = "#c9c9c9"
+INK, FAINT, RULE = "#1a1a1a", "#6b6b6b", "#c9c9c9"
 
 
 class Canvas:
@@ -34,12 +30,13 @@ class Canvas:
     def __init__(self, width: int, height: int) -> None:
         self._height = height
         # a hundredth of a pixel more: sizes are cut to whole pixels
-        inches = ((width + 0.01) / POINTS, (height + 0.01) / POINTS)
-        self._figure = Figure(inches, dpi=POINTS, facecolor="white")
+        self._figure = Figure(
+            ((width + 0.01) / POINTS, (height + 0.01) / POINTS), dpi=POINTS, facecolor="white"
+        )
         self._figure.set_layout_engine("none")
         self._canvas: Any = FigureCanvasAgg(self._figure)  # matplotlib has no types of it
-        self.axes = self._figure.add_axes((0.0, 0.0, 1.0, 1.0), zorder=1)
-        self.axes.set(xlim=(0.0, width + 0.01), ylim=(height + 0.01, 0.0))
+        self.axes = self.axes_in((0, 0, width, height))
+        self.axes.set(xlim=(0.0, width + 0.01), ylim=(height + 0.01, 0.0), zorder=1)
         self.axes.set_axis_off()
         self._moving: list[Artist] = []
 
@@ -47,17 +44,16 @@ class Canvas:
         """Axes of a diagram that fill a box."""
         left, top, right, bottom = box
         wide, high = self._figure.bbox.size
-        return self._figure.add_axes(
-            (left / wide, 1.0 - bottom / high, (right - left) / wide, (bottom - top) / high)
-        )
+        place = left / wide, 1.0 - bottom / high, (right - left) / wide, (bottom - top) / high
+        return self._figure.add_axes(place)
 
     def hold(self) -> None:
-        """Let all that has been drawn stand still; what is drawn from now on is only of the next frame."""
+        """Keep what has been drawn; from now on each drawn thing is only of the next frame."""
         self._canvas.draw()
         self._still = self._canvas.copy_from_bbox(self._figure.bbox)
         self._moving.clear()
 
-    def frame(self) -> Image:
+    def frame(self) -> Picture:
         """The picture; what has moved is gone from the next one."""
         self._canvas.restore_region(self._still)
         for artist in self._moving:
@@ -66,22 +62,15 @@ class Canvas:
         self._moving.clear()
         return np.array(self._canvas.buffer_rgba())[:, :, :3]
 
-    def paste(self, picture: Image, place: tuple[int, int]) -> None:
+    def paste(self, picture: Picture, place: tuple[int, int]) -> None:
         """Put a picture with its upper left corner at a place."""
         down = self._height - place[1] - len(picture)
         self._moving.append(self._figure.figimage(picture, place[0], down, origin="upper"))
 
     def write(
-        self,
-        place: Point,
-        text: str,
-        size: float,
-        colour: str = INK,
-        anchor: str = "left baseline",
-        *,
-        bold: bool = False,
-        room: float = math.inf,
-    ) -> Text:
+        self, place: Point, text: str, size: float, colour: str = INK, anchor: str = "left baseline", *,
+        bold: bool = False, room: float = math.inf,
+    ) -> Text:  # fmt: skip
         """Write a text.
 
         Arguments:
@@ -92,9 +81,8 @@ class Canvas:
         """
         ha, va = anchor.split()
         size = max(SMALLEST_FONT, size)
-        written = self.axes.text(
-            *place, text, color=colour, size=size, ha=ha, va=va, weight="bold" if bold else "normal"
-        )
+        weight = "bold" if bold else "normal"
+        written = self.axes.text(*place, text, color=colour, size=size, ha=ha, va=va, weight=weight)
         if (wide := self.width(written)) > room:
             written.set_fontsize(max(SMALLEST_FONT, size * room / wide))
         self._moving.append(written)
@@ -106,21 +94,18 @@ class Canvas:
 
     def line(self, x: Series, y: Series, colour: str, thick: float) -> None:
         """Draw a line through points; NaN breaks it."""
-        self._add(Line2D(x, y, color=colour, lw=thick, solid_capstyle="butt", solid_joinstyle="round"))
+        self._moving += self.axes.plot(x, y, color=colour, lw=thick, solid_capstyle="butt", scalex=False,
+                                       scaley=False)  # fmt: skip
 
     def disc(self, centre: Point, radius: float, colour: str, rim: float = 0.0) -> None:
         """Draw a disc, with a white rim of a thickness inside of its radius."""
-        self._add(Circle(centre, radius - 0.5 * rim, fc=colour, ec="white", lw=rim))
-
-    def circle(self, centre: Point, radius: float, colour: str, thick: float) -> None:
-        """Draw a dashed circle."""
-        self._add(Circle(centre, radius, fill=False, ec=colour, lw=thick, ls=(0, (3.0, 2.5))))
+        self.add(Circle(centre, radius - 0.5 * rim, fc=colour, ec="white", lw=rim))
 
     def box(self, box: Box, colour: str, radius: float) -> None:
         """Fill a rectangle with round corners."""
         left, top, right, bottom = box
         style = f"round,pad=0,rounding_size={radius}"
-        self._add(FancyBboxPatch((left, top), right - left, bottom - top, style, fc=colour, lw=0.0))
+        self.add(FancyBboxPatch((left, top), right - left, bottom - top, style, fc=colour, lw=0.0))
 
     def arrow(self, tail: Point, tip: Point, colour: str, thick: float) -> None:
         """Draw an arrow with a white edge, which is seen on anything, unless it is hardly longer than thick."""
@@ -129,12 +114,13 @@ class Canvas:
         if length < SHORTEST * thick:
             return
         head = min(4.2 * thick, 0.7 * length)
-        self._add(
+        self.add(
             FancyArrow(
                 *tail, *way, width=thick, head_length=head, head_width=2.0 * HEAD * head, color=colour, lw=0.0,
                 length_includes_head=True, path_effects=[withStroke(linewidth=0.7 * thick, foreground="white")],
             )
         )  # fmt: skip
 
-    def _add(self, artist: Any) -> None:
+    def add(self, artist: Any) -> None:
+        """Draw anything that matplotlib can, in pixels."""
         self._moving.append(self.axes.add_artist(artist))
