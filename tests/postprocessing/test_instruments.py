@@ -13,8 +13,13 @@ from support_exudyn.__main__ import main
 from support_exudyn.files.machines.read import machine
 from support_exudyn.files.series.read import read_series
 from support_exudyn.files.series.units import converted
-from support_exudyn.postprocessing.instruments.instrument import Instrument, LowPass
-from support_exudyn.postprocessing.instruments.sensors import ExtensionSensor, Inclinometer, PressureGauge
+from support_exudyn.postprocessing.instruments.sensors import (
+    ExtensionSensor,
+    Inclinometer,
+    Instrument,
+    LowPass,
+    PressureGauge,
+)
 from support_exudyn.postprocessing.instruments.station import (
     MeasuringStation,
     measure,

@@ -1,5 +1,7 @@
 """Instruments of mines: pressure gauges and extension sensors of columns, and inclinometers.
 
+    signal --> low-pass --> reading --> samples --> plus noise --> rounded to the resolution
+
 An inclinometer senses gravity less the acceleration of its place, and cannot distinguish the two.
 
     f = R^T (g - a)               specific force, in the body's own axes: x along the line by which the machine
@@ -14,6 +16,7 @@ through three records gives it.
 """
 
 import math
+from abc import ABC, abstractmethod
 from typing import Annotated, ClassVar, Literal
 
 import numpy as np
@@ -25,13 +28,80 @@ from support_exudyn.model.actuators import OilColumn
 from support_exudyn.model.hydraulics.leg import HydraulicCylinder
 from support_exudyn.model.linkage import GROUND, Linkage
 from support_exudyn.model.spatial_linkage import SpatialLinkage
-from support_exudyn.postprocessing.instruments.instrument import Instrument
 from support_exudyn.postprocessing.look.poses import Poses, named_ends
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.result import Result
 from user_forces.values.names import meant
-from user_forces.values.units import Metres, Pascals, Radians
-from user_forces.values.value import InputError, NonNegative, Positive, Whole, value
+from user_forces.values.units import Hertz, Metres, Pascals, Radians
+from user_forces.values.value import InputError, NonNegative, Positive, Value, Whole, value
+
+RECORDS = 20  # in a period of a filter's corner frequency, at least
+
+
+@value
+class LowPass(Value):
+    """A Butterworth filter as a device has it: causal, so that its output comes late.
+
+    Gain at a frequency f: 1 / sqrt(1 + (f / corner)^(2 order)). Before the first record its input was as there.
+
+    Arguments:
+        order: 1 to 8; 1 is a resistor and a capacitor. 2 by default.
+        corner: frequency at which the gain is 1 / sqrt(2) [Hz], > 0.
+    """
+
+    order: Annotated[Whole, Field(ge=1, le=8)] = 2
+    corner: Hertz[Positive]
+
+    @property
+    def longest_period(self) -> float:
+        """Longest time between records [s] for this filter.
+
+        A wave at the corner frequency loses 0.8 % of its height by the straight lines between such records,
+        and 1.6 % where it is a derivative by them.
+        """
+        return 1.0 / (RECORDS * self.corner)
+
+    def filtered(self, values: Series, period: float) -> Series:
+        """The filter's output at the records (n, m), exact for an input (n, m) with straight lines between.
+
+        period: between records [s].
+        """
+        from scipy import signal  # takes a while to import
+
+        time = 2.0 * np.pi * self.corner * period * np.arange(len(values))
+        system = signal.butter(self.order, 1.0, analog=True)
+        columns = [column[0] + signal.lsim(system, column - column[0], time)[1] for column in values.T]
+        return np.stack(columns, axis=-1)
+
+
+@value
+class Instrument(Value, ABC):
+    """A device on a machine.
+
+    Arguments:
+        rate: samples per second [Hz], > 0, 10 by default; the first at the start of the run.
+        low_pass: filter before the samples are taken; None: there is none.
+        noise: RMS of white, normally distributed noise, in the unit of the reading, >= 0, 0 by default.
+        resolution: step of its digits, in the same unit, >= 0, 0 by default: digits without end.
+    """
+
+    UNIT: ClassVar[str]  # of the reading, in SI
+
+    rate: Hertz[Positive] = 10.0
+    low_pass: LowPass | None = None
+    noise: NonNegative = 0.0
+    resolution: NonNegative = 0.0
+
+    @abstractmethod
+    def signals(self, result: Result) -> Series:
+        """The signals that act on it at every record, shape (n, m).
+
+        Raises InputError if the run has not recorded them, or has no such part.
+        """
+
+    def reading(self, signals: Series) -> Series:
+        """The reading (n,) of filtered signals (n, m); the first, unless an instrument defines another."""
+        return signals[:, 0]
 
 
 @value
@@ -180,29 +250,18 @@ def specific_force(result: Result, body: str, at: str | None = None) -> Series:
         raise InputError(
             f"body = {body!r}: the machine has no such body; {meant(body, [GROUND, *linkage.bodies])}"
         )
-    place = _place_on(linkage, body, at)
+    places = {name: point for name, on, point in named_ends(linkage) if on == body}
+    if at is not None and at not in places:
+        raise InputError(f"at = {at!r}: no such place on {body}; {meant(at, places)}")
     if body == GROUND:
         return np.tile(gravity, (result.time.size, 1))
     pose = Poses(result).of(body)
     turn = pose.turn
-    arm = np.zeros(3) if place is None else np.array([*place, 0.0][:3]) - pose.start
+    arm = np.zeros(3) if at is None else np.array([*places[at], 0.0][:3]) - pose.start
     velocity = pose.velocity + np.cross(pose.spin, turn @ arm)
     acceleration = np.gradient(velocity, float(result.time[1] - result.time[0]), axis=0, edge_order=2)
     axes = turn @ Rotation.from_euler("z", linkage.bodies[body].angle).as_matrix()
     return np.asarray(np.einsum("nji,nj->ni", axes, gravity - acceleration))
-
-
-def _place_on(linkage: Linkage | SpatialLinkage, body: str, at: str | None) -> tuple[float, ...] | None:
-    """A place on a body in the start posture [m]; None: the centre of mass.
-
-    Raises InputError if nothing of this name is on the body.
-    """
-    if at is None:
-        return None
-    places = {name: point for name, on, point in named_ends(linkage) if on == body}
-    if at not in places:
-        raise InputError(f"at = {at!r}: no such place on {body}; {meant(at, places)}")
-    return places[at]
 
 
 def machine_of(scenario: Scenario) -> Linkage | SpatialLinkage:

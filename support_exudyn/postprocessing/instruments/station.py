@@ -1,10 +1,11 @@
-"""A measuring station: the instruments on a machine, by name; their readings of a run; its file and table."""
+"""A measuring station: the instruments on a machine, by name; their samples of a run; its file and table."""
 
 import csv
 import math
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated
+from zlib import crc32
 
 import numpy as np
 from pydantic import Field
@@ -13,12 +14,13 @@ from support_exudyn.files.series.named_series import NamedSeries
 from support_exudyn.files.toml.reading import read_value
 from support_exudyn.files.toml.text import load_toml
 from support_exudyn.files.whole_file import missing_file, whole_file
+from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.postprocessing.export.whole_set import check_is_no_run
-from support_exudyn.postprocessing.instruments.instrument import Instrument, samples
 from support_exudyn.postprocessing.instruments.sensors import (
     ExtensionSensor,
     Inclinometer,
+    Instrument,
     PressureGauge,
     machine_of,
 )
@@ -31,6 +33,7 @@ BASE = "base"  # what mines call the ground of the model
 WRITTEN = {"Pa": ("MPa", 1e-6), "m": ("mm", 1e3), "rad": ("deg", 180.0 / math.pi)}
 DIGITS = 10  # of a number: far more than instruments have
 DECIMALS = 7  # of MPa, mm, deg: smaller is what rounding of a run leaves of nothing
+CLOSE = 1e-6  # share of a period by which records that are evenly spaced may be off
 
 
 @value
@@ -57,11 +60,55 @@ def measure(result: Result, station: MeasuringStation) -> dict[str, NamedSeries]
     readings = {}
     for name, instrument in station.instruments.items():
         try:
-            time, values = samples(instrument, name, result, station.seed)
+            own = np.random.default_rng([station.seed, crc32(name.encode())])
+            time, values = _samples(instrument, result, own)
         except InputError as error:
-            raise InputError(f"{name}: {str(error).removeprefix(f'{name}: ')}") from None
+            raise InputError(f"{name}: {error}") from None
         readings[name] = NamedSeries(name, instrument.UNIT, time + station.clock_offset, values)
     return readings
+
+
+def _samples(instrument: Instrument, result: Result, random: np.random.Generator) -> tuple[Series, Series]:
+    """The samples of an instrument: times (k,) [s] and readings (k,) in SI; random: of its noise.
+
+    Between two records a reading is on the straight line. A last record at a shorter distance is left out.
+
+    Raises InputError if the records are too far apart for the filter or the samples, or are not evenly spaced.
+    """
+    time, steps = result.time, np.diff(result.time)
+    if time.size < 3:
+        raise InputError(f"the run has {time.size} records; allowed: at least 3")
+    period = float(steps[0])
+    uneven = np.flatnonzero(np.abs(steps - period) > CLOSE * period)
+    if uneven.size and uneven[0] < steps.size - 1:
+        raise InputError(
+            f"the records are {period:g} s apart, and {steps[uneven[0]]:g} s at t = {time[uneven[0]]:g} s; "
+            "allowed: runs with one record_period"
+        )
+    time = time[: time.size - uneven.size]
+    low_pass = instrument.low_pass
+    if low_pass is not None and period > low_pass.longest_period * (1.0 + CLOSE):
+        raise InputError(
+            f"low_pass.corner = {low_pass.corner:g} Hz: the records are {period:g} s apart, too far for it; "
+            f"allowed: runs with record_period <= {low_pass.longest_period:g} s, or a corner up to "
+            f"{low_pass.corner * low_pass.longest_period / period:g} Hz"
+        )
+    if instrument.rate * period > 1.0 + CLOSE:
+        raise InputError(
+            f"rate = {instrument.rate:g} Hz: the records are {period:g} s apart; allowed: up to "
+            f"{1.0 / period:g} Hz, or runs with a shorter record_period"
+        )
+    signals = instrument.signals(result)[: len(time)]
+    if low_pass is not None:
+        signals = low_pass.filtered(signals, period)
+    count = int(np.floor((time[-1] - time[0]) * instrument.rate * (1.0 + 1e-12))) + 1
+    when = time[0] + np.arange(count) / instrument.rate
+    values = np.interp(when, time, instrument.reading(signals))
+    if instrument.noise:
+        values = values + instrument.noise * random.standard_normal(values.size)
+    if instrument.resolution:
+        values = instrument.resolution * np.round(values / instrument.resolution) + 0.0  # no -0
+    return when, values
 
 
 def usual_station(scenario: Scenario) -> tuple[MeasuringStation, dict[str, InputError]]:
