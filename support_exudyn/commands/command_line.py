@@ -19,6 +19,7 @@ from user_forces.values.texts import InputError, cleaned
 
 LONGEST_LINE = 400  # characters of what is wrong with a command line
 WRONG_USAGE = 2  # exit code
+PICTURES = (".png", ".pdf", ".svg")
 
 # --- options ---
 
@@ -52,6 +53,21 @@ def among(names: Iterable[str], what: str) -> Parameter:
             raise ValueError(f"{guess}allowed: {', '.join(known)}")
 
     return Parameter(validator=check, help=what)
+
+
+def _check_figures(type_: object, out: Path | None) -> None:
+    """Raise ValueError for a name of figures whose ending is that of no format that is drawn."""
+    del type_
+    if out is not None and out.suffix and not out.is_dir() and out.suffix.lower() not in PICTURES:
+        raise ValueError(f"allowed: a file that ends in {', '.join(PICTURES)}, or a folder, without an ending")
+
+
+FIGURES = Parameter(validator=_check_figures)  # of an option that is a figure's file, or a folder
+
+
+def is_figure(out: Path | None) -> bool:
+    """Whether an output is the file of a figure; otherwise it is a folder."""
+    return out is not None and not out.is_dir() and out.suffix.lower() in PICTURES
 
 
 def new_app(name: str, about: str, **settings: Any) -> App:
@@ -121,6 +137,14 @@ def say(text: object) -> None:
         nowhere = os.open(os.devnull, os.O_WRONLY)
         os.dup2(nowhere, sys.stdout.fileno())
         os.close(nowhere)
+
+
+def show_table(title: str, header: Sequence[str], rows: Sequence[Sequence[str]], note: str = "") -> None:
+    """Print a table if it has rows, see `table_text`."""
+    if rows:
+        from support_exudyn.postprocessing.terminal import table_text
+
+        say(table_text(title, header, rows, note))
 
 
 def write_or_say(text: str, out: Path | None) -> None:

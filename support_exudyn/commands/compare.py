@@ -3,9 +3,17 @@
 import math
 from pathlib import Path
 
-from support_exudyn.commands.command_line import After, Json, Until, answer, answered, say, shown_progress
+from support_exudyn.commands.command_line import (
+    After,
+    Json,
+    Until,
+    answer,
+    answered,
+    say,
+    show_table,
+    shown_progress,
+)
 from support_exudyn.commands.runs import files_and_channels
-from support_exudyn.commands.tables import show_table
 from user_forces.values.value import InputError
 
 DIFFERENT, REFUSED = 1, 2  # exit codes

@@ -7,8 +7,7 @@ from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
-from support_exudyn.commands.command_line import Json, among, answer, say, write_or_say
-from support_exudyn.commands.tables import show_table
+from support_exudyn.commands.command_line import Json, among, answer, say, show_table, write_or_say
 from support_exudyn.files import scenario_schema, scenario_text
 from support_exudyn.files.machines import machine_schema
 from support_exudyn.files.starters import KINDS, write_starter

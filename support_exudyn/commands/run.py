@@ -3,18 +3,14 @@
 from pathlib import Path
 from typing import Annotated, Literal
 
-import numpy as np
 from cyclopts import Parameter
 
-from support_exudyn.commands.command_line import Json, answer, say, shown_progress, warn
-from support_exudyn.commands.tables import show_tables
+from support_exudyn.commands.command_line import Json, answer, say, show_table, shown_progress, warn
 from support_exudyn.files import read_scenario_file
-from support_exudyn.files.whole_file import check_may_be_replaced, named, real_path
-from support_exudyn.machines.check.joint_warnings import guide_warnings, joint_warnings
-from support_exudyn.mechanics.body_motion import BodyMotion
+from support_exudyn.files.whole_file import writable
+from support_exudyn.postprocessing.joint_tables import joint_warnings_of
 from support_exudyn.postprocessing.summary import facts, in_short, run_tables, unmet
 from support_exudyn.scenario.scenario_data import ACCURACIES, LARGEST_GOAL, SMALLEST_GOAL
-from support_exudyn.simulation.result import Result
 from support_exudyn.simulation.simulate import simulate
 from user_forces.values.value import InputError
 
@@ -73,7 +69,8 @@ def run(
         answer({**written, **facts(result), "impacts": impacts, "warnings": warnings})
     else:
         if all:
-            show_tables(run_tables(result))
+            for table in run_tables(result):
+                show_table(*table)
             lines = [f"assumed: {words}" for words in scenario_file.assumed]
         else:
             lines = [f"{name}: {words}" for name, words in in_short(result)]
@@ -87,33 +84,9 @@ def run(
 
 def _check_outputs(scenario: Path, files: dict[str, Path]) -> None:
     """Raise InputError or OSError if a file cannot be written: now, and not when all is computed."""
-    taken = {real_path(scenario): "the scenario itself"}
+    taken = {scenario.resolve(): "the scenario itself"}
     for option, path in files.items():
-        real = real_path(path)
+        real = writable(path)
         if real in taken:
             raise InputError(f"{option} {path}: is {taken[real]}; allowed: another file")
         taken[real] = "the file of the run"
-        try:
-            check_may_be_replaced(real)
-        except OSError as error:
-            raise named(error, path) from None
-
-
-def joint_warnings_of(result: Result) -> list[str]:
-    """Warnings on the joints of a planar run, with its numbers as far as they were recorded."""
-    linkage, channels = result.scenario.linkage, result.channels
-    moments = {
-        name: float(np.abs(result[f"{name}.moment"]).max())
-        for name in linkage.gears
-        if f"{name}.moment" in channels
-    }
-    found = list(joint_warnings(linkage, moments))
-    starts = {
-        f"{name}.{key}": value
-        for name, body in linkage.bodies.items()
-        for key, value in (("x", body.centre[0]), ("y", body.centre[1]), ("angle", body.angle))
-    }
-    if linkage.slides and starts.keys() <= channels.keys():
-        position = np.column_stack([result[name] - start for name, start in starts.items()])
-        found += guide_warnings(BodyMotion(linkage, position, np.zeros_like(position)))
-    return found

@@ -1,12 +1,9 @@
 """`show RUN [CHANNEL|NUMBER...]`, `show STORE [NUMBER...]`: what a run or a sweep was, as tables."""
 
-from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
-from support_exudyn.commands.command_line import After, Json, Until, answer
-from support_exudyn.commands.tables import show_table, show_tables
-from support_exudyn.postprocessing import joint_tables, summary
+from support_exudyn.commands.command_line import After, Json, Until, answer, show_table
+from support_exudyn.postprocessing import summary
 from support_exudyn.postprocessing.figures.selection import matching
 from support_exudyn.postprocessing.shown_numbers import numbers
 from support_exudyn.simulation.result import Result
@@ -46,7 +43,7 @@ def show(
     asked = [name for name in names if name in result.channels]
     if json:
         shown = asked if channels else [name for name in result.channels if name != "time"]
-        answer({"run": run} | _data(result, shown, ends))
+        answer({"run": run} | summary.data(result, shown, ends))
         return
     if impacts:
         show_table(*summary.impacts_table("impacts", result, None, ends))
@@ -55,29 +52,5 @@ def show(
             show_table(*summary.numbers_table(result, ends, only))
         show_table(*summary.channels_table(result, asked, ends))
     elif not impacts:
-        show_tables(summary.run_tables(result, ends, all))
-
-
-def _data(result: Result, channels: Sequence[str], ends: tuple[float, float]) -> dict[str, Any]:
-    """What scripts read, in SI: every number with its error, and these channels."""
-    impacts = {
-        pin: [
-            {
-                "time_s": onset.time,
-                "speed_m_per_s": onset.speed,
-                "parting_time_s": onset.separation_time,
-                "force_at_records_N": summary.force_of_impact(result, pin, n),
-            }
-            for n, onset in enumerate(onsets)
-        ]
-        for pin, onsets in result.onsets.items()
-    }
-    return {
-        "scenario": result.scenario.to_data(),
-        **summary.facts(result, ends),
-        "provenance": dict(result.provenance),
-        "impacts": impacts,
-        "oil_events": {name: [event._asdict() for event in found] for name, found in result.oil_events.items()},
-        "pin_stability": joint_tables.stability_data(summary.outlooks(result)),
-        "channels": {name: summary.extent(result, name, *ends) for name in channels},
-    }
+        for table in summary.run_tables(result, ends, all):
+            show_table(*table)

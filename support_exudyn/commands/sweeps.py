@@ -7,9 +7,18 @@ from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
-from support_exudyn.commands.command_line import Json, answer, at_most, say, shown_progress, warn, write_or_say
-from support_exudyn.commands.runs import FIGURES, joined, save_figures
-from support_exudyn.commands.tables import show_table
+from support_exudyn.commands.command_line import (
+    FIGURES,
+    Json,
+    answer,
+    at_most,
+    is_figure,
+    say,
+    show_table,
+    shown_progress,
+    warn,
+    write_or_say,
+)
 from support_exudyn.postprocessing import sweep_summary, sweep_table
 from support_exudyn.postprocessing.figures.selection import matching
 from support_exudyn.postprocessing.sweep_runs import SweepRuns
@@ -121,6 +130,7 @@ def chart(
         out: Folder of the figure (figures in the store), or its file (.png, .pdf, .svg).
     """
     from support_exudyn.postprocessing.figures import style, sweep_chart, sweep_distribution
+    from support_exudyn.postprocessing.figures.of_runs import joined, save_figures
 
     if len(names) > 2:
         raise InputError(f"{' '.join(names)}: allowed: what was varied and a number, or a number alone")
@@ -143,7 +153,7 @@ def chart(
             name = joined(y, "over", x, f"by_{by}" if by else "")
         folder = store if store.is_dir() else store.parent
         style.named(drawing, folder.resolve().name)
-        say("\n".join(map(str, save_figures({name: drawing}, out, folder / "figures")[name])))
+        say("\n".join(map(str, save_figures({name: drawing}, out, folder / "figures", is_figure(out))[name])))
 
 
 def _only_number(known: Sequence[str]) -> str:

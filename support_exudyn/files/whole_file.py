@@ -2,12 +2,13 @@
 
 import errno
 import os
+import secrets
 import shutil
 import stat
 import tempfile
 import time
 from collections.abc import Collection, Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
 from difflib import get_close_matches
 from pathlib import Path
 
@@ -15,7 +16,7 @@ from filelock import FileLock, Timeout
 
 from user_forces.values.value import InputError, cleaned
 
-PREFIX = ".support_exudyn-"  # of temporary folders
+PREFIX = ".support_exudyn-"  # of temporary files and folders
 LOCK = ".support_exudyn.lock"
 DAY = 86400.0  # [s]
 REFUSED = "it cannot be written"
@@ -24,68 +25,59 @@ LETTERS = 80  # of a name that are compared and shown
 
 @contextmanager
 def whole_file(path: str | Path, within: Path | None = None, lasting: bool = True) -> Iterator[Path]:
-    """A temporary path beside `path` to write to; it takes the place of `path` if nothing goes wrong.
+    """A temporary path to write to; it takes the place of `path` if nothing goes wrong.
 
-    Missing folders are made. A link stays, and the file that it points to is written. What is written is on the
-    disk before it takes its place, so that `path` is whole after a power cut too. After an error or an
-    interruption `path` is as it was before; of a process that is killed a folder stays, see `workshop`.
+    Missing folders are made. A link stays, and the file that it points to is written. After an error or an
+    interruption `path` is as it was before; of a process that is killed the temporary file stays.
 
     Arguments:
         path: of the file.
-        within: a folder of `workshop` on the same disk, for many files one after the other; None: one is made.
-        lasting: whether it is waited until the file is on the disk. Otherwise a power cut may leave an empty or
-            a cut one; for files that are known not to be whole, and can be made again.
+        within: a folder on the same disk for the temporary file; None: that of the file.
+        lasting: whether to wait until the file is on the disk, so that it is whole after a power cut too.
 
     Raises OSError that names `path` if it cannot be written: before the block where that can be known, after it
     otherwise (a full disk).
     """
-    with ExitStack() as held:
-        try:
-            real = real_path(path)
-            real.parent.mkdir(parents=True, exist_ok=True)
-            check_may_be_replaced(real)
-            folder = within or held.enter_context(workshop(real.parent))
-            temporary = folder / f"x{real.suffix}"  # never too long
-            temporary.touch()
-        except FileExistsError:
-            raise named(
-                NotADirectoryError(errno.ENOTDIR, "A file stands where a folder should be"), path
-            ) from None
-        except OSError as error:  # of a name that nobody has given
-            raise named(error, path) from None
-        try:
-            yield temporary
-            if lasting:
-                write_through(temporary)
-            temporary.replace(real)
-        except OSError as error:
-            if error.errno is None or error.filename not in (None, str(temporary), temporary):
-                raise  # of something else
-            raise named(error, path) from error
-
-
-def real_path(path: str | Path) -> Path:
-    """Where a path leads, links followed."""
-    if "\0" in str(path):
-        raise OSError(errno.EINVAL, "a name cannot hold a NUL")
-    real = os.path.realpath(path)
-    if os.path.islink(real):  # noqa: PTH114
-        raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
-    return Path(real)
-
-
-def check_may_be_replaced(path: Path) -> None:
-    """Raise OSError where opening for writing would; replacing asks the folder's permissions only."""
+    real = writable(path)
+    temporary = (within or real.parent) / f"{PREFIX}{secrets.token_hex(4)}{real.suffix}"
     try:
-        mode = path.stat().st_mode
+        real.parent.mkdir(parents=True, exist_ok=True)
+        temporary.touch()
+    except OSError as error:  # of a name that nobody has given
+        raise named(error, path) from None
+    try:
+        yield temporary
+        if lasting:
+            write_through(temporary)
+        temporary.replace(real)
+    except OSError as error:
+        if error.errno is None or error.filename not in (None, str(temporary), temporary):
+            raise  # of something else
+        raise named(error, path) from error
+    finally:
+        temporary.unlink(missing_ok=True)
+
+
+def writable(path: str | Path) -> Path:
+    """The file that a path leads to, links followed.
+
+    Raises OSError that names the path where opening for writing would; replacing a file asks for the folder's
+    permissions only.
+    """
+    real = Path(os.path.realpath(path))
+    try:
+        mode = real.stat().st_mode
+        if stat.S_ISDIR(mode):
+            raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
+        if not stat.S_ISREG(mode):
+            raise OSError(errno.EINVAL, "Not a regular file")
+        if not os.access(real, os.W_OK):
+            raise PermissionError(errno.EACCES, "The file is read-only")
     except FileNotFoundError:
-        return
-    if stat.S_ISDIR(mode):
-        raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
-    if not stat.S_ISREG(mode):
-        raise OSError(errno.EINVAL, "Not a regular file")
-    if not os.access(path, os.W_OK):
-        raise PermissionError(errno.EACCES, "The file is read-only")
+        return real
+    except OSError as error:
+        raise named(error, path) from None
+    return real
 
 
 def contents(path: str | Path, most: int) -> bytes:
@@ -122,29 +114,24 @@ def missing_file(path: str | Path, allowed: str, names: Collection[str] = ()) ->
         names: that could have been given instead of a path.
     """
     path = Path(path)
-    try:
-        beside = [one.name for one in path.parent.iterdir() if one.suffix == path.suffix or not path.suffix]
-    except OSError:
-        beside = []
-    near = get_close_matches(path.name[:LETTERS], [*names, *beside], 1)
+    there = path.parent.iterdir() if path.parent.is_dir() else ()
+    others = [other.name for other in there if other.suffix == path.suffix or not path.suffix]
+    near = get_close_matches(path.name[:LETTERS], [*names, *others], 1)
     guess = f"; did you mean {near[0]!r}?" if near else ""
     folder = "" if path.parent.is_dir() else f", nor a folder {str(path.parent)!r:.{LETTERS}}"
-    said = f"no such file{folder}; allowed: {allowed}{guess}"
-    return FileNotFoundError(errno.ENOENT, cleaned(said), str(path))
+    sentence = f"no such file{folder}; allowed: {allowed}{guess}"
+    return FileNotFoundError(errno.ENOENT, cleaned(sentence), str(path))
 
 
 def named(error: OSError, path: str | Path) -> OSError:
-    """The error, told of the name that was given."""
+    """The error with the name that was given."""
     return type(error)(error.errno, f"{error.strerror}; {REFUSED}", str(path))
 
 
 def write_through(path: Path) -> None:
     """Wait until a file is on the disk. Otherwise its new name might get there first."""
-    handle = os.open(path, os.O_RDWR)
-    try:
-        os.fsync(handle)
-    finally:
-        os.close(handle)
+    with path.open("rb+") as file:
+        os.fsync(file.fileno())
 
 
 @contextmanager
@@ -185,7 +172,7 @@ def workshop(parent: Path) -> Iterator[Path]:
 
 
 def remove_leftovers(folder: Path, below: bool = False, older: float = DAY) -> None:
-    """Remove the temporary folders that killed processes left behind.
+    """Remove the temporary files and folders that killed processes left behind.
 
     Arguments:
         folder: where they are.
@@ -194,5 +181,9 @@ def remove_leftovers(folder: Path, below: bool = False, older: float = DAY) -> N
     """
     now = time.time()
     for path in list((folder.rglob if below else folder.glob)(f"{PREFIX}*")):
-        if path.is_dir() and not path.is_symlink() and now - path.stat().st_mtime >= older:
+        if path.is_symlink() or not path.exists() or now - path.stat().st_mtime < older:
+            continue
+        if path.is_dir():
             shutil.rmtree(path, ignore_errors=True)
+        else:
+            path.unlink(missing_ok=True)

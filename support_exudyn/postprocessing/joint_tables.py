@@ -4,7 +4,11 @@ import math
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from support_exudyn.files.own_modules import NotImported, with_known_laws
+from support_exudyn.machines.check.joint_warnings import guide_warnings, joint_warnings
+from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.postprocessing.figures.units import said
 from support_exudyn.scenario.pin_pressure import PressedPin, pressed_pin
 from support_exudyn.scenario.pin_stability import PinOutlook
@@ -201,3 +205,26 @@ def leg_table(result: Result, after: float = 0.0, until: float = float("inf")) -
         if not begun:
             rows.append((name, "nothing opened, boiled or met a stop", "", "", ""))
     return ResultTable("hydraulic legs", ("leg", "what", ">times", ">first", ">last"), rows)
+
+
+# --- warnings ---
+
+
+def joint_warnings_of(result: Result) -> list[str]:
+    """Warnings on the joints of a planar run, with its numbers as far as they were recorded."""
+    linkage, channels = result.scenario.linkage, result.channels
+    moments = {
+        name: float(np.abs(result[f"{name}.moment"]).max())
+        for name in linkage.gears
+        if f"{name}.moment" in channels
+    }
+    warnings = list(joint_warnings(linkage, moments))
+    starts = {
+        f"{name}.{key}": value
+        for name, body in linkage.bodies.items()
+        for key, value in (("x", body.centre[0]), ("y", body.centre[1]), ("angle", body.angle))
+    }
+    if linkage.slides and starts.keys() <= channels.keys():
+        position = np.column_stack([result[name] - start for name, start in starts.items()])
+        warnings += guide_warnings(BodyMotion(linkage, position, np.zeros_like(position)))
+    return warnings

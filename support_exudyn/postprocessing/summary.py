@@ -20,6 +20,7 @@ from support_exudyn.postprocessing.joint_tables import (
     hardest_pressed,
     leg_table,
     pressure_table,
+    stability_data,
     stability_table,
 )
 from support_exudyn.postprocessing.shown_numbers import (
@@ -183,6 +184,31 @@ def facts(result: Result, ends: tuple[float, float] = WHOLE) -> dict[str, Any]:
         "wall_time_s": result.wall_time,
         "warnings": list(result.warnings),
         "numbers": {name: number._asdict() for name, number in numbers(result, *ends).items()},
+    }
+
+
+def data(result: Result, channels: Sequence[str], ends: tuple[float, float]) -> dict[str, Any]:
+    """All of a run between two times [s]: every number with its error, impacts, and these channels."""
+    impacts = {
+        pin: [
+            {
+                "time_s": onset.time,
+                "speed_m_per_s": onset.speed,
+                "parting_time_s": onset.separation_time,
+                "force_at_records_N": force_of_impact(result, pin, n),
+            }
+            for n, onset in enumerate(onsets)
+        ]
+        for pin, onsets in result.onsets.items()
+    }
+    return {
+        "scenario": result.scenario.to_data(),
+        **facts(result, ends),
+        "provenance": dict(result.provenance),
+        "impacts": impacts,
+        "oil_events": {name: [event._asdict() for event in found] for name, found in result.oil_events.items()},
+        "pin_stability": stability_data(outlooks(result)),
+        "channels": {name: extent(result, name, *ends) for name in channels},
     }
 
 

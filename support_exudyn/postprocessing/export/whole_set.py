@@ -6,11 +6,10 @@ from pathlib import Path
 
 from support_exudyn.files.whole_file import (
     REFUSED,
-    check_may_be_replaced,
     named,
-    real_path,
     remove_leftovers,
     workshop,
+    writable,
     write_through,
 )
 from user_forces.values.value import InputError
@@ -33,13 +32,13 @@ def whole_set(folder: Path, files: Sequence[str], stale: Collection[str] = ()) -
     """
     made = not folder.exists()
     try:
-        place = real_path(folder)
+        place = folder.resolve()
         place.mkdir(parents=True, exist_ok=True)
         remove_leftovers(place)
         with workshop(place) as temporary:
             for name in files:
                 check_is_no_run(place / name)
-                check_may_be_replaced(place / name)
+                writable(place / name)
             yield temporary
             for name in files:
                 write_through(temporary / name)

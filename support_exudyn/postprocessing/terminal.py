@@ -1,7 +1,7 @@
-"""Tables for the terminal, or for what reads standard output."""
+"""Tables as text, for the terminal or for what reads standard output."""
 
 import io
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from shutil import get_terminal_size
 
 from rich import box
@@ -10,8 +10,6 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from support_exudyn.commands.command_line import say
-from support_exudyn.postprocessing.joint_tables import ResultTable
 from user_forces.values.value import cleaned
 
 WORDS = ("words", "meaning", "remark")  # heads of columns whose cells may be broken
@@ -19,20 +17,12 @@ NARROWEST = 25  # characters of such a column
 PIPED = 150  # characters of a line where there is no terminal
 
 
-def show_tables(tables: Iterable[ResultTable]) -> None:
-    """Print tables, each as soon as it is made."""
-    for table in tables:
-        show_table(*table)
-
-
-def show_table(title: str, header: Sequence[str], rows: Sequence[Sequence[str]], note: str = "") -> None:
-    """Print a table if it has rows, see `ResultTable`, and the lines below it.
+def table_text(title: str, header: Sequence[str], rows: Sequence[Sequence[str]], note: str = "") -> str:
+    """A table and the lines below it as text, see `ResultTable`.
 
     Names and numbers are never cut or broken, even if the terminal is too narrow for them. Words are broken at
     its width; a last column of words is left out where there is no room for it.
     """
-    if not rows:
-        return
     heads = header or ("", "words")
     widths = [
         NARROWEST if head in WORDS else max(cell_len(text) for text in (head, *(row[n] for row in rows)))
@@ -41,8 +31,7 @@ def show_table(title: str, header: Sequence[str], rows: Sequence[Sequence[str]],
     room = get_terminal_size((PIPED, 24)).columns
     needed = sum(widths) + 3 * len(widths) + 2  # with what stands between them
     if header and heads[-1] in WORDS and needed > room:
-        show_table(title, header[:-1], [row[:-1] for row in rows], note)
-        return
+        return table_text(title, header[:-1], [row[:-1] for row in rows], note)
     table = Table(
         box=box.SIMPLE_HEAD if header else None, show_header=bool(header), pad_edge=False, padding=(0, 1)
     )
@@ -58,6 +47,5 @@ def show_table(title: str, header: Sequence[str], rows: Sequence[Sequence[str]],
     console = Console(file=io.StringIO(), width=max(room, needed))
     with console.capture() as printed:
         console.print(table)
-    say("\n".join([title, *(line.rstrip() for line in printed.get().splitlines()), ""]))
-    if note:
-        say(f"{note}\n")
+    lines = [title, *(line.rstrip() for line in printed.get().splitlines()), ""]
+    return "\n".join([*lines, note, ""] if note else lines)
