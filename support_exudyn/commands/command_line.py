@@ -19,7 +19,6 @@ from user_forces.values.texts import InputError, cleaned
 
 LONGEST_LINE = 400  # characters of what is wrong with a command line
 WRONG_USAGE = 2  # exit code
-PICTURES = (".png", ".pdf", ".svg")
 
 # --- options ---
 
@@ -55,19 +54,34 @@ def among(names: Iterable[str], what: str) -> Parameter:
     return Parameter(validator=check, help=what)
 
 
-def _check_figures(type_: object, out: Path | None) -> None:
-    """Raise ValueError for a name of figures whose ending is that of no format that is drawn."""
-    del type_
-    if out is not None and out.suffix and not out.is_dir() and out.suffix.lower() not in PICTURES:
-        raise ValueError(f"allowed: a file that ends in {', '.join(PICTURES)}, or a folder, without an ending")
+def output(*endings: str, folder: bool = True) -> Parameter:
+    """A file with such an ending, or a folder: a name without an ending, or of a folder that is there.
+
+    folder: whether a folder is allowed; otherwise a name without an ending is that of a file.
+    """
+
+    def check(type_: object, out: Path | None) -> None:
+        del type_
+        if out is None or (folder and out.is_dir()) or not has_ending(out) or out.suffix.lower() in endings:
+            return
+        where = " or a folder, without an ending" if folder else ""
+        raise ValueError(f"allowed: a file that ends in {', '.join(endings)}{where}")
+
+    return Parameter(validator=check)
 
 
-FIGURES = Parameter(validator=_check_figures)  # of an option that is a figure's file, or a folder
+def has_ending(path: Path) -> bool:
+    """Whether a name has an ending, which begins with a letter: "x.csv" has, "clearance_1.5mm" has none."""
+    return path.suffix[1:2].isalpha()
 
 
-def is_figure(out: Path | None) -> bool:
-    """Whether an output is the file of a figure; otherwise it is a folder."""
-    return out is not None and not out.is_dir() and out.suffix.lower() in PICTURES
+PICTURES = (".png", ".pdf", ".svg")
+FIGURES = output(*PICTURES)
+
+
+def is_file(out: Path | None) -> bool:
+    """Whether an output with several possible endings is a file; otherwise it is a folder."""
+    return out is not None and not out.is_dir() and has_ending(out)
 
 
 def new_app(name: str, about: str, **settings: Any) -> App:

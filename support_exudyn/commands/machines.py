@@ -6,7 +6,7 @@ from typing import Annotated
 from cyclopts import Parameter
 from cyclopts.validators import Number
 
-from support_exudyn.commands.command_line import FIGURES, Json, is_figure, put
+from support_exudyn.commands.command_line import FIGURES, Json, is_file, put
 from support_exudyn.files.machines import SHIPPED
 from support_exudyn.files.scenarios.scenario_file import read_machine_in
 from user_forces.values.value import InputError
@@ -42,7 +42,7 @@ def check(
     folder = Path(machine).parent if Path(machine).suffix.lower() == ".toml" else Path()
     name = f"{_stem(machine)}_check"
     with style.look():
-        figures = save_figures({name: check_figure(checked.report)}, out, folder, is_figure(out))[name]
+        figures = save_figures({name: check_figure(checked.report)}, out, folder, is_file(out))[name]
     put(json, checked.data() | {"figures": figures}, *checked.lines(), "", *figures)
 
 
@@ -76,5 +76,5 @@ def stand(
     if figure:
         name = f"{_stem(machine)}_stand"
         with style.look():
-            figures = save_figures({name: stand_figure(report)}, figure, Path(), is_figure(figure))[name]
+            figures = save_figures({name: stand_figure(report)}, figure, Path(), is_file(figure))[name]
     put(json, {**report.data(), "figures": figures}, *page(report), *figures)

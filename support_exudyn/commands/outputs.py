@@ -14,6 +14,8 @@ from support_exudyn.commands.command_line import (
     Until,
     answer,
     at_most,
+    is_file,
+    output,
     put,
     say,
     shown_progress,
@@ -31,7 +33,9 @@ Every = Annotated[int | None, at_most(10**9)]  # records
 Positive = Annotated[float, Parameter(validator=Number(gte=1e-9, lte=1e9))]
 
 
-def report(run: str, /, *others: str, out: Path | None = None, json: Json = False) -> None:
+def report(
+    run: str, /, *others: str, out: Annotated[Path | None, output(".html")] = None, json: Json = False
+) -> None:
     """Write the page, and print its name.
 
     Args:
@@ -44,7 +48,7 @@ def report(run: str, /, *others: str, out: Path | None = None, json: Json = Fals
     paths, channels = files_and_channels([run, *others])
     page = run_report({name: Result.load(path) for name, path in by_name(paths).items()}, channels)
     path = out or paths[0].with_name(f"{paths[0].stem}_report.html")
-    path = path if path.suffix == ".html" else path / "report.html"
+    path = path if path.suffix.lower() == ".html" else path / "report.html"
     with whole_file(path) as temporary:
         temporary.write_text(page, encoding="utf-8")
     put(json, {"report": path}, path)
@@ -66,7 +70,7 @@ def render(
     run: Path,
     /,
     *,
-    out: Path | None = None,
+    out: Annotated[Path | None, output(".png")] = None,
     frames_per_second: Annotated[float, Parameter(name=("--frames-per-second", "--fps"))] = 25.0,
     after: After | None = None,
     until: Until | None = None,
@@ -96,6 +100,8 @@ def render(
 
     if still is not None and (after is not None or until is not None):
         raise InputError("--still: is one picture; allowed: without --after and --until")
+    if still is None and is_file(out):
+        raise InputError(f"--out {out}: allowed without --still: a folder for the frames, without an ending")
     result = Result.load(run)
     if still is not None:
         path = out or run.with_name(f"{run.stem}_{still:g}s.png")
@@ -141,7 +147,12 @@ def view(run: Path, /, *, solution: Path | None = None, every: Every = None) -> 
 
 
 def measure(
-    run: Path, instruments: Path | None = None, /, *, out: Path | None = None, json: Json = False
+    run: Path,
+    instruments: Path | None = None,
+    /,
+    *,
+    out: Annotated[Path | None, output(".csv", folder=False)] = None,
+    json: Json = False,
 ) -> None:
     """Write the table of what instruments read, and print what is in it.
 
@@ -199,6 +210,8 @@ def export(
     from support_exudyn.postprocessing.export.solution_file import save_solution
     from support_exudyn.postprocessing.export.tables import TABLES, to_csv, to_hdf5
 
+    if is_file(out):
+        raise InputError(f"--out {out}: is a folder for all formats; allowed: a name without an ending")
     result, name, folder = Result.load(run), run.stem, out or run.parent / f"{run.stem}_export"
     kinds = [kind.strip() for kind in to.split(",")] if to else []
     for kind in kinds:

@@ -7,7 +7,7 @@ from typing import Annotated
 from cyclopts import Parameter
 from cyclopts.validators import Number
 
-from support_exudyn.commands.command_line import FIGURES, After, Json, Until, is_figure, put, warn
+from support_exudyn.commands.command_line import FIGURES, After, Json, Until, is_file, put, warn
 from support_exudyn.commands.runs import by_name, files_and_channels, is_of_others
 from support_exudyn.files.series.read import read_series
 from support_exudyn.simulation.result import Result
@@ -76,13 +76,13 @@ def plot(
             drawn = {of_runs.in_name(patterns): of_runs.of_several(runs, series, patterns, ends, difference)}
         else:
             (called,) = runs
-            view = of_runs.RunFigures(patterns, kinds, pin, ends, phase, section or (), alone=is_figure(out))
+            view = of_runs.RunFigures(patterns, kinds, pin, ends, phase, section or (), alone=is_file(out))
             found = view.of(runs[called], left_out)
             drawn = {what: style.named(drawing, called) for what, drawing in found}
         window = of_runs.window_in_name(*ends)
         drawings = {of_runs.joined(called, what, window): drawing for what, drawing in drawn.items()}
         folder = files[0].with_name(f"{files[0].stem}_figures")
-        written = of_runs.save_figures(drawings, out, folder, is_figure(out))
+        written = of_runs.save_figures(drawings, out, folder, is_file(out))
     for kind, reason in left_out.items():
         warn(f"{kind}: left out: {reason}")
     put(json, {"figures": written}, *(path for paths in written.values() for path in paths))

@@ -5,7 +5,7 @@ from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
-from support_exudyn.commands.command_line import Json, answer, say, show_table, shown_progress, warn
+from support_exudyn.commands.command_line import Json, answer, output, say, show_table, shown_progress, warn
 from support_exudyn.files import read_scenario_file
 from support_exudyn.files.whole_file import writable
 from support_exudyn.postprocessing.joint_tables import joint_warnings_of
@@ -34,7 +34,7 @@ def run(
     file: Path,
     /,
     *,
-    out: Path | None = None,
+    out: Annotated[Path | None, output(".h5", ".hdf5", folder=False)] = None,
     accuracy: Goal = None,
     solution: Path | None = None,
     all: bool = False,  # noqa: A002, the option's name

@@ -12,7 +12,8 @@ from support_exudyn.commands.command_line import (
     Json,
     answer,
     at_most,
-    is_figure,
+    is_file,
+    put,
     say,
     show_table,
     shown_progress,
@@ -29,7 +30,6 @@ from support_exudyn.sweeps.table import is_sampled
 from user_forces.values.value import InputError
 
 FAILURES = 3  # exit code
-BOUNDING = 72  # runs that bound the percentiles of 5 and 95 %: 0.95^72 < 0.025
 MOST = 8  # numbers that are shown unless all or some are asked for
 FORMATS = {"md": sweep_table.as_markdown, "csv": sweep_table.as_csv, "latex": sweep_table.as_latex}
 Store = Annotated[Path, Parameter(help="Folder of a sweep, or the table.parquet in it.")]
@@ -84,13 +84,9 @@ def sweep(
     for name in outcome.missing:
         warn(f"{name}: no run has this number")
     to_do = outcome.runs - outcome.finished
-    if json:
-        answer(asdict(outcome) | {"to_do": to_do})
-    else:
-        left = f", {to_do} to do" if dry_run else ""
-        say(f"{outcome.runs} runs{left}: {_counts(outcome)}")
-        if not dry_run:
-            say(f"{outcome.table}\nnext: support-exudyn show {outcome.table.parent}")
+    left = f", {to_do} to do" if dry_run else ""
+    place = [] if dry_run else [outcome.table, f"next: support-exudyn show {outcome.table.parent}"]
+    put(json, asdict(outcome) | {"to_do": to_do}, f"{outcome.runs} runs{left}: {_counts(outcome)}", *place)
     if dry_run:
         return 0
     if outcome.unmet:
@@ -153,7 +149,7 @@ def chart(
             name = joined(y, "over", x, f"by_{by}" if by else "")
         folder = store if store.is_dir() else store.parent
         style.named(drawing, folder.resolve().name)
-        say("\n".join(map(str, save_figures({name: drawing}, out, folder / "figures", is_figure(out))[name])))
+        say("\n".join(map(str, save_figures({name: drawing}, out, folder / "figures", is_file(out))[name])))
 
 
 def _only_number(known: Sequence[str]) -> str:
@@ -197,18 +193,10 @@ def show_sweep(store: Path, words: Sequence[str], every: bool, json: bool) -> No
         answer(sweep_summary.data_of(runs, chosen))
         return
     say(f"{sweep_summary.counts(runs)}\n")
-    show_table("what varied", ("input", ">values", "remark"), sweep_summary.what_varied(runs))
-    show_table("what went wrong", (">runs", "remark"), sweep_summary.reasons(runs))
     more = len(names) - len(chosen)
     rest = f" ({more} more: --all)" if more > 0 and not words else ""
-    band = ", percentiles with their 95 % confidence intervals" if is_sampled(runs.table) else ""
-    header, rows = sweep_summary.what_came_out(runs, chosen)
-    if any("- to" in cell or "to -" in cell for row in rows for cell in row):
-        band += f" (-: not bounded by so few runs; {BOUNDING} do)"
-    show_table(f"what came out{rest}{band}", header, rows)
-    title = "what it follows: Spearman's rank correlation, -1 to 1, with its 95 % confidence interval"
-    header = ("number", "input", ">correlation", ">interval", "remark")
-    show_table(title, header, sweep_summary.what_it_follows(runs, chosen))
+    for table in sweep_summary.sweep_tables(runs, chosen, rest):
+        show_table(*table)
     if chosen:
         folder = store if store.is_dir() else store.parent
         number = next(name for name, column in names.items() if column == chosen[0])

@@ -8,13 +8,16 @@ from typing import Any
 import numpy as np
 
 from support_exudyn.postprocessing.figures.units import DisplayUnit, readable
+from support_exudyn.postprocessing.joint_tables import ResultTable
 from support_exudyn.postprocessing.sweep_runs import SweepNumber, SweepRuns, in_words
 from support_exudyn.sweeps.statistics import Percentile, Rank, percentiles, ranking
 from support_exudyn.sweeps.table import is_sampled
 
 Row = tuple[str, ...]
 DIGITS = 5
-MOST_NAMED = 6  # values of an input that are told one by one
+MOST_NAMED = 6  # values of an input that are listed
+BOUNDING = 72  # runs that bound the percentiles of 5 and 95 %: 0.95^72 < 0.025
+FOLLOWS = "what it follows: Spearman's rank correlation, -1 to 1, with its 95 % confidence interval"
 
 
 def counts(runs: SweepRuns) -> str:
@@ -28,43 +31,55 @@ def counts(runs: SweepRuns) -> str:
     return f"{len(status)} runs: {', '.join(words)}{less}"
 
 
-def reasons(runs: SweepRuns) -> list[Row]:
-    """Why runs failed or missed their accuracy, the most frequent first: how many, and words."""
-    found = Counter(reason for reason in runs.column("reason") if reason)
-    return [(str(number), reason) for reason, number in found.most_common(MOST_NAMED)]
+def sweep_tables(runs: SweepRuns, columns: list[str], rest: str = "") -> list[ResultTable]:
+    """What varied, what went wrong, what came out, and what that follows.
+
+    columns: of the numbers that are shown. rest: what is said of those that are not.
+    """
+    failed = Counter(reason for reason in runs.column("reason") if reason)
+    reasons = [(str(number), reason) for reason, number in failed.most_common(MOST_NAMED)]
+    return [
+        ResultTable("what varied", ("input", ">values", "remark"), _what_varied(runs)),
+        ResultTable("what went wrong", (">runs", "remark"), reasons),
+        _what_came_out(runs, columns, rest),
+        ResultTable(FOLLOWS, ("number", "input", ">correlation", ">interval", "remark"), _ranks(runs, columns)),
+    ]
 
 
-def what_varied(runs: SweepRuns) -> list[Row]:
+def _what_varied(runs: SweepRuns) -> list[Row]:
     """Inputs: name with unit, how many values, least and greatest or all of them."""
     rows: list[Row] = []
     for name in runs.varied:
         values = list(dict.fromkeys(runs.column(name)))
         numeric = all(isinstance(one, (int, float)) and not isinstance(one, bool) for one in values)
         if numeric and len(values) > MOST_NAMED:
-            told = f"{min(values):.{DIGITS}g} to {max(values):.{DIGITS}g}"
+            text = f"{min(values):.{DIGITS}g} to {max(values):.{DIGITS}g}"
         else:
-            told = ", ".join(f"{one:.{DIGITS}g}" if numeric else str(one) for one in values[:MOST_NAMED])
-            told += ", ..." if len(values) > MOST_NAMED else ""
-        rows.append((in_words(name), str(len(values)), told))
+            text = ", ".join(f"{one:.{DIGITS}g}" if numeric else str(one) for one in values[:MOST_NAMED])
+            text += ", ..." if len(values) > MOST_NAMED else ""
+        rows.append((in_words(name), str(len(values)), text))
     return rows
 
 
-def what_came_out(runs: SweepRuns, columns: list[str]) -> tuple[Row, list[Row]]:
-    """Header and rows of numbers over the runs: least, mean and greatest, of drawn runs also percentiles."""
+def _what_came_out(runs: SweepRuns, columns: list[str], rest: str) -> ResultTable:
+    """Numbers over the runs: least, mean and greatest, of drawn runs also percentiles."""
     sampled = is_sampled(runs.table)
-    header = ["number", "unit", ">runs", ">min"]
-    header += [">5 %", ">50 %", ">95 %"] if sampled else [">mean"]
+    middle = (">5 %", ">50 %", ">95 %") if sampled else (">mean",)
+    header = ("number", "unit", ">runs", ">min", *middle, ">max")
     rows: list[Row] = []
     for one in map(runs.number, columns):
         if not one.known.size:
-            rows.append((one.name, "", "0", *[""] * (len(header) - 2)))
+            rows.append((one.name, "", "0", *[""] * (len(header) - 3)))
             continue
         unit = readable(one.unit, float(np.abs(one.known).max()))
-        middle = [_with_band(each, unit) for each in percentiles(one.known.tolist())] if sampled else []
-        middle = middle or [_said(one.known.mean(), unit)]
+        cells = [_with_band(each, unit) for each in percentiles(one.known.tolist())] if sampled else []
+        cells = cells or [_said(one.known.mean(), unit)]
         ends = _said(one.known.min(), unit), _said(one.known.max(), unit)
-        rows.append((one.name, unit.name, str(one.known.size), ends[0], *middle, ends[1]))
-    return (*header, ">max"), rows
+        rows.append((one.name, unit.name, str(one.known.size), ends[0], *cells, ends[1]))
+    band = ", percentiles with their 95 % confidence intervals" if sampled else ""
+    if any("- to" in cell or "to -" in cell for row in rows for cell in row):
+        band += f" (-: not bounded by so few runs; {BOUNDING} do)"
+    return ResultTable(f"what came out{rest}{band}", header, rows)
 
 
 def ranked(runs: SweepRuns, number: SweepNumber) -> list[Rank]:
@@ -74,8 +89,8 @@ def ranked(runs: SweepRuns, number: SweepNumber) -> list[Rank]:
     return ranking(inputs, number.known.tolist())
 
 
-def what_it_follows(runs: SweepRuns, columns: list[str]) -> list[Row]:
-    """Rows of number, input, rank correlation with its interval, and what that says."""
+def _ranks(runs: SweepRuns, columns: list[str]) -> list[Row]:
+    """Rows of number, input, rank correlation with its interval, and a remark."""
     rows: list[Row] = []
     for number in map(runs.number, columns):
         for n, one in enumerate(ranked(runs, number)):
@@ -93,12 +108,12 @@ def data_of(runs: SweepRuns, columns: list[str]) -> dict[str, Any]:
     for one in map(runs.number, columns):
         if not one.known.size:
             continue
-        told: dict[str, Any] = {"unit": one.unit, "runs": int(one.known.size)}
-        told |= {word: float(getattr(one.known, word)()) for word in ("min", "mean", "std", "max")}
+        found: dict[str, Any] = {"unit": one.unit, "runs": int(one.known.size)}
+        found |= {word: float(getattr(one.known, word)()) for word in ("min", "mean", "std", "max")}
         if is_sampled(runs.table):
-            told["percentiles"] = [each._asdict() for each in percentiles(one.known.tolist())]
-        told["ranking"] = [each._asdict() for each in ranked(runs, one)]
-        numbers[one.name] = told
+            found["percentiles"] = [each._asdict() for each in percentiles(one.known.tolist())]
+        found["ranking"] = [each._asdict() for each in ranked(runs, one)]
+        numbers[one.name] = found
     status = runs.column("status")
     return {"runs": len(status), "status": dict(Counter(status)), "varied": runs.varied, "numbers": numbers}
 
