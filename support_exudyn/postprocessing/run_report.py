@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from support_exudyn.model.linkage import GROUND
+from support_exudyn.model.machine import Machine
 from support_exudyn.postprocessing import joint_tables, summary
 from support_exudyn.postprocessing.figures import overlay, style
 from support_exudyn.postprocessing.figures.linkage_drawing import machine_drawing
@@ -135,62 +136,54 @@ def _picture(drawing: Figure) -> str:
 # --- machine and still ---
 
 
-def _machines(runs: Mapping[str, Result]) -> tuple[ShownFigure, ...]:
+def _machines(runs: Mapping[str, Result]) -> list[ShownFigure]:
     """A drawing for each machine, with the clearance pins of the first of its runs that has some."""
-    groups: list[list[str]] = []
-    for name, result in runs.items():
-        same = (group for group in groups if runs[group[0]].scenario.machine == result.scenario.machine)
-        group = next(same, [])
-        if not group:
-            groups.append(group)
-        group.append(name)
-    found = []
-    for number, group in enumerate(groups, 1):
-        shown = next((name for name in group if runs[name].scenario.clearance_pins), group[0])
-        scenario = runs[shown].scenario
-        pins = (
-            f"clearance in {', '.join(scenario.clearance_pins)}"
-            if scenario.clearance_pins
-            else "all pins ideal"
-        )
-        caption = f"{type(scenario.machine).__name__} in the start posture of {shown}: {pins}."
-        found.append(ShownFigure(_picture(machine_drawing(scenario)), caption, anchor=f"machine{number}"))
-    return tuple(found)
+    found: list[ShownFigure] = []
+    drawn: list[Machine] = []
+    for name, result in sorted(runs.items(), key=lambda item: not item[1].scenario.clearance_pins):
+        scenario = result.scenario
+        if scenario.machine in drawn:
+            continue
+        drawn.append(scenario.machine)
+        loose = ", ".join(scenario.clearance_pins)
+        pins = f"clearance in {loose}" if loose else "all pins ideal"
+        caption = f"{type(scenario.machine).__name__} in the start posture of {name}: {pins}."
+        found.append(ShownFigure(_picture(machine_drawing(scenario)), caption, anchor=f"machine{len(drawn)}"))
+    return found
 
 
 def _still(runs: Mapping[str, Result]) -> tuple[ShownFigure | None, str]:
     """The first run with clearance, or the first, when the force in its pin is largest; or why it is not."""
     from support_exudyn.postprocessing.render import still  # it brings the engine
 
-    name = next((name for name, one in runs.items() if one.scenario.clearance_pins), next(iter(runs)))
-    result = runs[name]
-    time, when = _telling_time(result)
+    name = next((name for name, run in runs.items() if run.scenario.clearance_pins), next(iter(runs)))
+    time, when = _telling_time(runs[name])
     try:
-        picture = still(result, time, size=STILL)
+        picture = still(runs[name], time, size=STILL)
     except (InputError, RuntimeError) as error:
         return None, f"There is no rendered picture: {error}"
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "still.png"
         Image.fromarray(picture).save(path)
-        return ShownFigure(image(path), f"Run {name} {when}.", anchor="still"), ""
+        return ShownFigure(image(path), f"Run {name} {when}, at {time:.6g} s.", anchor="still"), ""
 
 
 def _telling_time(result: Result) -> tuple[float, str]:
     """When the hardest hit pin has its largest force [s], and that in words; without forces the run's end."""
     forces = {pin: f"pin.{pin}.force" for pin in _watched_pins(result)}
-    peaks = {pin: float(result[name].max()) for pin, name in forces.items() if name in result.channels}
+    recorded = {pin: result[name] for pin, name in forces.items() if name in result.channels}
     loose = {pin: force for pin, force in result.largest_force.items() if pin in result.scenario.clearance_pins}
-    if not (peaks or loose):
-        return float(result.time[-1]), f"at its end, {result.time[-1]:.6g} s"
-    peaks = loose or peaks  # at any step, or at the records
-    pin = max(peaks, key=lambda name: peaks[name])
-    time = result.largest_force_time.get(pin)
-    if time is None:
-        if forces[pin] not in result.channels:
-            return float(result.time[-1]), f"at its end, {result.time[-1]:.6g} s"
-        time = float(result.time[int(np.argmax(result[forces[pin]]))])
-    time = min(time, float(result.time[-1]))
-    return time, f"when the force in {pin} is largest, at {time:.6g} s"
+    peaks = loose or {
+        pin: float(force.max()) for pin, force in recorded.items()
+    }  # at any step, or at the records
+    pin = max(peaks, key=lambda name: peaks[name], default="")
+    if pin in result.largest_force_time:
+        time = result.largest_force_time[pin]
+    elif pin in recorded:
+        time = float(result.time[int(np.argmax(recorded[pin]))])
+    else:
+        return float(result.time[-1]), "at its end"
+    return min(time, float(result.time[-1])), f"when the force in {pin} is largest"
 
 
 # --- tables ---
