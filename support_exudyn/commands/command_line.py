@@ -1,12 +1,10 @@
 """What all command lines share: kinds of options, printed lines, errors as a sentence and an exit code."""
 
-import math
 import os
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from difflib import get_close_matches
-from json import dumps
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -119,7 +117,9 @@ def import_modules(names: Sequence[str]) -> None:
 
 def answer(data: Mapping[str, Any]) -> None:
     """Print a JSON object; numbers that are none (not known, without end) as null."""
-    say(dumps(_finite(data), indent=1, allow_nan=False))
+    from pydantic_core import to_json  # which `--help` has no use for
+
+    say(to_json(data, indent=1, inf_nan_mode="null", fallback=dict).decode("utf-8"))
 
 
 def put(json: bool, data: Mapping[str, Any], *lines: object) -> None:
@@ -128,16 +128,6 @@ def put(json: bool, data: Mapping[str, Any], *lines: object) -> None:
         answer(data)
     else:
         say("\n".join(map(str, lines)))
-
-
-def _finite(item: Any) -> Any:
-    if isinstance(item, Mapping):
-        return {str(key): _finite(value) for key, value in item.items()}
-    if isinstance(item, (list, tuple)):
-        return [_finite(value) for value in item]
-    if isinstance(item, Path):
-        return str(item)
-    return None if isinstance(item, float) and not math.isfinite(item) else item
 
 
 def say(text: object) -> None:

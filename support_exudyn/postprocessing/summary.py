@@ -168,7 +168,7 @@ def in_short(result: Result) -> list[Row]:
         value, error, unit = ("not recorded", "", "") if number is None else with_error(number)
         rows.append((f"{own}: {what}", f"{value} ± {error} {unit}" if error else f"{value} {unit}".rstrip()))
     onsets = next((some for pin, some in result.onsets.items() if result.scenario.contact_stem(pin) == own), ())
-    others = f"; {len(joints) - 1} more clearance joints are hit less hard" if len(joints) > 1 else ""
+    others = f"; smaller forces in {', '.join(joints[1:])}" if len(joints) > 1 else ""
     impacts = f"{len(onsets)}{others}" if joints else "none, for there is no clearance joint"
     return [*rows, (f"{own}: impacts", impacts)]
 
