@@ -82,9 +82,6 @@ Exit codes:
 """
 
 
-NAMES = [name for commands in COMMANDS.values() for name in commands]
-
-
 def _versions() -> str:
     from support_exudyn.simulation.provenance import versions
 
@@ -115,10 +112,11 @@ def _launch(
     A mistyped command is refused here: the library would import all commands to list those that it shows. An
     unexpected error in a module of the user's own is an InputError.
     """
-    if words and words[0] not in list(app):
-        near = get_close_matches(words[0], NAMES, 1)
+    known = list(app)
+    if words and words[0] not in known:
+        near = get_close_matches(words[0][:80], known, 1)
         guess = f'Did you mean "{near[0]}"? ' if near else ""
-        raise CycloptsError(msg=f'Unknown command "{words[0]}". {guess}Allowed: {", ".join(NAMES)}')
+        raise CycloptsError(msg=f'Unknown command "{words[0][:80]}". {guess}Allowed: {", ".join(known)}')
     command, bound, _ = app.parse_args(words)
     be_interruptible()
     import_modules(imports)
