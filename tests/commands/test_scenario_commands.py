@@ -99,7 +99,7 @@ def test_what_cannot_be_run_is_said_in_a_line(tmp_path: Path, capsys: pytest.Cap
     assert refused(["run", str(path)], capsys) == f"error: {path}: duration_s = -1: allowed: > 0\n"
     assert "no.toml" in refused(["run", str(tmp_path / "no.toml")], capsys)
     path.write_text('machine = "reference"\nduration_s = 1\n')
-    assert "is the scenario itself" in refused(["run", str(path), "--out", str(path)], capsys)
+    assert "is the scenario itself" in refused(["run", str(path), "--solution", str(path)], capsys)
     (tmp_path / "folder").mkdir()
     assert "irectory" in refused(["run", str(path), "--out", str(tmp_path / "folder")], capsys)
     assert [one.name for one in sorted(tmp_path.iterdir())] == ["a.toml", "folder"]
