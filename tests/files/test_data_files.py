@@ -117,7 +117,7 @@ def test_numbers_are_rounded_once() -> None:
         (Sheave, "radius_m = 1\nforce = 3", "a.toml: force: a number needs its unit in the key"),
         (Sheave, "radius_m = 1\nwhole = 1", "a.toml: whole = 1: allowed: true, false"),
         (Sheave, "radius_m = 1\ngrooves = [1, 1.5]", "a.toml: grooves[1] = 1.5: allowed: a whole number"),
-        (Sheave, "radius_m = 1e-31", "a.toml: radius = 1e-31: Input should be a number not so near to zero"),
+        (Sheave, "radius_m = 1e-31", "a.toml: radius_m = 1E-31: Input should be a number not so near to zero"),
         (LuGre, "static_coefficient = 0.1\nsliding_coefficient = 0.2", "a.toml: static_coefficient = 0.1"),
     ],
 )

@@ -23,8 +23,16 @@ from difflib import get_close_matches
 from typing import Annotated, Any, ClassVar, TypeVar
 
 import numpy as np
-from pydantic import AfterValidator, BeforeValidator, ConfigDict, Field, ValidationError
+from pydantic import (
+    AfterValidator,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    GetCoreSchemaHandler,
+    ValidationError,
+)
 from pydantic.dataclasses import dataclass as pydantic_dataclass
+from pydantic_core import ArgsKwargs, core_schema
 from typing_extensions import Self, dataclass_transform
 
 from user_forces.values import places
@@ -37,6 +45,7 @@ from user_forces.values.texts import short as short
 LARGEST = 1e30  # of any number: products of several neither overflow nor vanish
 NEAR = 4  # names that are told of many
 NEAREST = 80  # letters of a name that are compared
+GROUP = "value_class"  # in the schemas of fields: the class of their values
 DEEPEST = 32  # of plain data, in containers within containers; a scenario has 7
 
 
@@ -93,6 +102,9 @@ Vector2 = tuple[Real, Real]
 Vector3 = tuple[Real, Real, Real]
 
 
+_being_made: set[type] = set()  # classes whose own schemas are built
+
+
 class Value:
     """Base of all data classes made with `value`; keeps a register of them by class name.
 
@@ -116,7 +128,9 @@ class Value:
         """
         if only_groups(cls):
             if _is_made(cls) or ABC in cls.__bases__:
-                raise InputError(f"{cls.__name__}: is a kind of values; allowed: {_names(kinds_of(cls))}")
+                raise InputError(
+                    f"{cls.__name__}: is a kind of values; allowed: {', '.join(sorted(kinds_of(cls)))}"
+                )
             _check_whole(cls)
         if not _is_made(cls):
             raise InputError(
@@ -124,6 +138,19 @@ class Value:
                 f"@value before `class {cls.__name__}`, with `from support_exudyn import value`"
             )
         return super().__new__(cls)
+
+    @classmethod
+    def __get_pydantic_core_schema__(cls, source: Any, handler: GetCoreSchemaHandler) -> Any:
+        """Schema for pydantic: a field of this class takes values of it, of later subclasses too."""
+        if cls in _being_made:
+            return handler(source)
+
+        def member(item: Any) -> Any:
+            if isinstance(item, cls):
+                return item
+            raise ValueError(f"Input should be a value of class {cls.__name__}")
+
+        return core_schema.no_info_plain_validator_function(member, metadata={GROUP: cls})
 
     def __getstate__(self) -> dict[str, Any]:
         """What a copy and another process are given: the fields, and classes that are kept.
@@ -228,10 +255,6 @@ def _first_line(method: Any) -> str:
     return f"{'a property' if isinstance(method, property) else 'a method'} ({said})"
 
 
-def _names(names: Mapping[str, Any]) -> str:
-    return ", ".join(sorted(names)) or "none"
-
-
 def _plain(item: Any) -> Any:
     if isinstance(item, Value):
         return item.to_data()
@@ -255,13 +278,7 @@ def _value_of(data: Any, depth: int) -> Any:
             "one's own have to be imported first, on a command line by --import FILE"
         )
     given = of_earlier_version(found, data)
-    return found(**{_name(k): _rebuilt(v, depth + 1) for k, v in given.items() if k != "type"})
-
-
-def _name(key: Any) -> str:
-    if isinstance(key, str):
-        return key
-    raise InputError(f"{short(key)}: is no name; allowed: text")
+    return found(**{k: _rebuilt(v, depth + 1) for k, v in given.items() if k != "type"})
 
 
 def _rebuilt(item: Any, depth: int) -> Any:
@@ -270,7 +287,7 @@ def _rebuilt(item: Any, depth: int) -> Any:
     if isinstance(item, Mapping):
         if "type" in item:
             return _value_of(item, depth)
-        return {_name(k): _rebuilt(v, depth + 1) for k, v in item.items()}
+        return {k: _rebuilt(v, depth + 1) for k, v in item.items()}
     if isinstance(item, list):
         return tuple(_rebuilt(v, depth + 1) for v in item)
     return item
@@ -289,7 +306,11 @@ def value(cls: type[T]) -> type[T]:
     """
     _check_whole(cls)
     config = ConfigDict(extra="forbid", allow_inf_nan=False, arbitrary_types_allowed=True)
-    made: Any = pydantic_dataclass(frozen=True, kw_only=True, config=config)(cls)
+    _being_made.add(cls)
+    try:
+        made: Any = pydantic_dataclass(frozen=True, kw_only=True, config=config)(cls)
+    finally:
+        _being_made.remove(cls)
     checked_init = made.__init__
 
     def __init__(self: Any, /, *args: Any, **kwargs: Any) -> None:
@@ -303,19 +324,34 @@ def value(cls: type[T]) -> type[T]:
             raise InputError(
                 "\n".join(_sentence(made, e) for e in _first(error.errors(include_url=False)))
             ) from None
-        for name, item in list(vars(self).items()):
-            if not isinstance(item, Mapping):
-                continue
-            if "type" in item:
-                raise InputError(
-                    f"{made.__name__}.{name}: 'type': cannot be used as a name, it marks what kind of value "
-                    "data are of; allowed: any other"
-                )
-            object.__setattr__(self, name, Named(item, f"name in {made.__name__}.{name}"))
+        _name_entries(self)
 
     __init__.__doc__ = checked_init.__doc__
     made.__init__ = __init__
     return made  # type: ignore[no-any-return]
+
+
+def validated(cls: type[Value], given: Mapping[str, Any]) -> Any:
+    """A value of a class from its fields. Raises pydantic's ValidationError, InputError of names."""
+    made = cls.__new__(cls)
+    validator: Any = cls.__pydantic_validator__  # type: ignore[attr-defined]
+    validator.validate_python(ArgsKwargs((), dict(given)), self_instance=made)
+    _name_entries(made)
+    return made
+
+
+def _name_entries(made: Any) -> None:
+    """Let a table of a value answer a name that it does not have with the names that are near."""
+    cls = type(made).__name__
+    for name, item in list(vars(made).items()):
+        if not isinstance(item, Mapping):
+            continue
+        if "type" in item:
+            raise InputError(
+                f"{cls}.{name}: 'type': cannot be used as a name, it marks what kind of value "
+                "data are of; allowed: any other"
+            )
+        object.__setattr__(made, name, Named(item, f"name in {cls}.{name}"))
 
 
 ITSELF = "__dataclass_self__"  # how pydantic calls the value that is made

@@ -16,7 +16,7 @@ from support_exudyn.files.scenarios.short_forms import (
 )
 from support_exudyn.files.scenarios.short_joints import ShortGuide, ShortPin
 from support_exudyn.files.toml.faults import Faults
-from support_exudyn.files.toml.reading import FAILED, Failed, Reader
+from support_exudyn.files.toml.reading import FAILED, Reader
 from support_exudyn.files.toml.schema import Schemas, without
 from support_exudyn.files.toml.shapes import GroupShape, field_shapes
 from support_exudyn.files.toml.text import load_toml, toml_text
@@ -197,14 +197,10 @@ def _scenario(
     reader = Reader(faults, {**shorts, Machine: forms.machine}, sourced)
     apart = forms.drives(reader, table)
     if apart:
-        table = {**table, "drives": forms.without_file(table["drives"])}
-    table = {"machine": "", **table}  # that it is missing has been said
-    given = reader.fields(Scenario, table, (), also=HEAD)
-    if isinstance(given, Failed) or FAILED in apart.values():
-        return FAILED
-    if apart:
-        given["drives"] = {**apart, **given["drives"]}
-    return reader.made(Scenario, given, ())
+        own = {name: one for name, one in table["drives"].items() if isinstance(one, dict)}
+        table = {**table, "drives": {**apart, **own}}
+    found = reader.value(Scenario, {"machine": "", **table}, (), also=HEAD)  # that it is missing has been said
+    return FAILED if FAILED in apart.values() else found
 
 
 def scenario_text(scenario: Scenario, name: str = "", description: str = "", errors: bool = False) -> str:

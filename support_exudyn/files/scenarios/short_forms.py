@@ -99,7 +99,7 @@ def read_machine_of(
     if isinstance(given, str):
         return _from_file(given, faults, folder)
     if isinstance(given, dict):
-        found = Reader(faults, sourced=sourced).item({"group": GroupShape((Machine,))}, given, ("machine",))
+        found = Reader(faults, sourced=sourced).member(GroupShape((Machine,)), given, ("machine",))
         return None if isinstance(found, Failed) else MachineData(found)
     if isinstance(given, (Machine, MachineData)):  # made by a program, see `simple_scenario`
         return MachineData(given) if isinstance(given, Machine) else given
@@ -307,11 +307,6 @@ class ShortForms:
         for name in found.keys() & given.keys():
             reader.faults.add(("drives", name), f"is a column of {file.table} too; allowed: one of them")
         return dict(found)
-
-    @staticmethod
-    def without_file(given: Mapping[str, Any]) -> dict[str, Any]:
-        """The drives that `[drives]` holds besides its file."""
-        return {key: one for key, one in given.items() if isinstance(one, dict)}
 
 
 def _read(read: Callable[[], Any], faults: Faults, name: str, place: Place) -> Any:

@@ -1,10 +1,13 @@
-"""Tables of files are read as values, by what the values' classes declare."""
+"""Tables of files are read as values: keys become fields in SI, which pydantic checks."""
 
 import math
 from collections.abc import Callable, Iterable, Mapping
 from decimal import Decimal
 from difflib import get_close_matches
+from functools import partial
 from typing import Any, TypeVar
+
+from pydantic import ValidationError
 
 from support_exudyn.files.toml.faults import Faults, Place, dotted_key, nearest, said, said_place
 from support_exudyn.files.toml.shapes import (
@@ -16,16 +19,25 @@ from support_exudyn.files.toml.shapes import (
     allowed,
     either,
     field_shapes,
+    inner_shape,
+    is_number,
     options,
 )
 from user_forces.values.sourced import SourcedNumber
 from user_forces.values.units import Unit
-from user_forces.values.value import DEEPEST, LARGEST, InputError, Value, of_earlier_version, removed_fields
+from user_forces.values.value import (
+    LARGEST,
+    LENGTHS,
+    InputError,
+    Value,
+    of_earlier_version,
+    removed_fields,
+    validated,
+)
 
 V = TypeVar("V", bound=Value)
 SMALLEST_EXPONENT = -1000  # of a decimal; what is smaller is 0
 ShortForm = Callable[["Reader", Any, Place], Any]
-UNKNOWN = "unknown key"
 
 
 class Failed:
@@ -53,129 +65,167 @@ class Reader:
         self.short_forms = dict(short_forms or {})
         self.sourced = sourced
 
-    def value(self, cls: type[Value], table: Mapping[str, Any], place: Place, base: Value | None = None) -> Any:
-        """A value of a class from its table, whose `type` has been looked at; FAILED if something is wrong.
-
-        base: a value whose fields stand for those that are not given.
-        """
-        given = self.fields(cls, table, place, base)
-        return FAILED if isinstance(given, Failed) else self.made(cls, given, place)
-
-    def fields(
+    def value(
         self,
         cls: type[Value],
         table: Mapping[str, Any],
         place: Place,
         base: Value | None = None,
         also: tuple[str, ...] = (),
-    ) -> dict[str, Any] | Failed:
-        """The fields of a class that a table gives, read; those of `base` for the others.
+    ) -> Any:
+        """A value of a class from its table, whose `type` is known to fit; FAILED if something is wrong.
 
-        also: keys that the table may have besides, which somebody else reads.
+        base: a value whose fields stand for those that are not given. also: keys that the table may have
+        besides, which somebody else reads.
         """
-        shapes = field_shapes(cls)
-        keys = {key: one for one in shapes.values() for key in one.keys}
+        before, fields, found = len(self.faults.lines), field_shapes(cls), FAILED
+        table = of_earlier_version(cls, table)
+        given, keys = self._given(cls, table, place, also)
+        for field in fields.values():
+            if field.name not in given and base is not None:
+                given[field.name] = getattr(base, field.name)
+            elif field.name not in given and field.allows_none and field.default is None:
+                given[field.name] = None
+        try:
+            found = validated(cls, given)
+        except ValidationError as error:
+            self._note(error, fields, {name: (key, table[key]) for name, key in keys.items()}, place)
+        except InputError as error:
+            self.faults.add(place, str(error).removeprefix(f"{cls.__name__}: "))
+        return FAILED if len(self.faults.lines) > before else found
+
+    def _given(
+        self, cls: type[Value], table: Mapping[str, Any], place: Place, also: tuple[str, ...]
+    ) -> tuple[dict[str, Any], dict[str, str]]:
+        """The fields that a table gives, in SI, FAILED for those of wrong keys; and their keys."""
+        fields = field_shapes(cls)
+        known = {key: one for one in fields.values() for key in one.keys}
         given: dict[str, Any] = {}
         by: dict[str, str] = {}
-        for key, item in of_earlier_version(cls, table).items():
-            here = (*place, key)
+        for key, item in table.items():
             if key == "type":
                 continue
-            if key not in keys and self.faults.is_full:
-                self.faults.lines.append(UNKNOWN)
-                given[key] = FAILED
-                continue
-            if key not in keys:
-                meant, reason = _removed(cls, key) or _unknown(key, shapes, also)
+            field, here = known.get(key), (*place, key)
+            if field is None:
+                meant, reason = "", "unknown key"
+                if not self.faults.is_full:
+                    meant, reason = _removed(cls, key) or _unknown(key, fields, also)
                 self.faults.add(here, reason)
-                given[meant] = FAILED
-                continue
-            field = keys[key]
-            if field.name in by:
+                if meant in fields:
+                    given[meant] = FAILED
+            elif field.name in by:
                 self.faults.add(here, f"is given twice, {by[field.name]} says the same; allowed: one of them")
                 given[field.name] = FAILED
-                continue
-            by[field.name] = key
-            given[field.name] = self._item_of(field, item, here, field.ending(key))
-        for field in shapes.values():
-            if field.name in given:
-                continue
-            if base is not None:
-                given[field.name] = getattr(base, field.name)
-            elif field.required:
-                self.faults.add((*place, field.keys[0]), "missing; it has no default")
+            elif field.unit is not None and not field.ending(key) and _holds_number(item):
+                allowed_keys = ", ".join(field.keys[:-1])
+                self.faults.add(here, f"a number needs its unit in the key; allowed: {allowed_keys}")
                 given[field.name] = FAILED
-            elif field.allows_none and field.default is None:
-                given[field.name] = None
-        return FAILED if FAILED in given.values() else given
+            else:
+                by[field.name] = key
+                given[field.name] = self._in_si(field.shape, item, here, field.unit, field.ending(key))
+        return given, by
 
-    def made(self, cls: type[Value], given: Mapping[str, Any], place: Place) -> Any:
-        """A value of its fields; FAILED, with the file and the place before what the class says of them."""
-        try:
-            return cls(**given)
-        except InputError as error:
-            for line in str(error).splitlines():
-                if line.startswith(f"{cls.__name__}."):
-                    self.faults.add(
-                        (), ".".join(filter(None, (said_place(place), line[len(cls.__name__) + 1 :])))
-                    )
-                else:
-                    self.faults.add(place, line.removeprefix(f"{cls.__name__}: "))
-            return FAILED
+    def _note(
+        self,
+        found: ValidationError,
+        fields: Mapping[str, FieldShape],
+        given: Mapping[str, tuple[str, Any]],
+        place: Place,
+    ) -> None:
+        """Note pydantic's errors of a table; given: by the names of fields, their keys and items."""
+        notes: dict[tuple[Any, ...], Callable[[], None] | None] = {}  # by their places; None: is noted already
+        for error in found.errors(include_url=False):
+            name, *rest = error["loc"] or (None,)
+            why = error.get("ctx", {}).get("error")
+            if name is None:
+                for line in str(why or error["msg"]).splitlines():
+                    self.faults.add(place, line)
+            elif error["input"] is FAILED:
+                notes[error["loc"]] = None
+            elif name not in given:
+                self.faults.add((*place, fields[str(name)].keys[0]), "missing; it has no default")
+            else:
+                field, (key, item) = fields[str(name)], given[str(name)]
+                shape, here, at = field.shape, (*place, key), error["loc"][:1]
+                for part in rest:
+                    if isinstance(part, str) and not isinstance(item, dict):  # how pydantic names a choice
+                        continue
+                    if not _has(item, part):
+                        break
+                    shape, item, at = inner_shape(shape, part), item[part], (*at, part)
+                    here = (*here[:-1], f"{here[-1]}[{part}]") if isinstance(part, int) else (*here, part)
+                notes.setdefault(
+                    at, partial(self._refuse, shape, item, here, field.unit, field.ending(key), error)
+                )
+        for at, note in notes.items():
+            if note is not None and not any(len(one) > len(at) and one[: len(at)] == at for one in notes):
+                note()
 
-    def _item_of(self, field: FieldShape, item: Any, place: Place, ending: str) -> Any:
-        if field.unit is not None and not ending and _holds_number(item):
-            self.faults.add(place, f"a number needs its unit in the key; allowed: {', '.join(field.keys[:-1])}")
-            return FAILED
-        return self.item(field.shape, item, place, field.unit, ending)
-
-    def item(self, shape: Shape, item: Any, place: Place, unit: Unit | None = None, ending: str = "") -> Any:
-        """The meaning of an item of a file where something of a shape is wanted.
-
-        unit, ending: of its numbers. FAILED if it does not fit.
-        """
-        if isinstance(item, (dict, list)) and len(place) > 2 * DEEPEST:
-            self.faults.add(place[:4], f"is nested too deep; allowed: {DEEPEST} levels")
-            return FAILED
-        if "group" in shape:
-            return self._group(shape, item, place)
-        if self.sourced is not None and _says_more(shape, item):
-            return self._sourced(self.sourced, _numeric(shape), item, place, unit, ending)
-        if not is_for(shape, item):
-            return self._refused(shape, item, place, unit, ending)
-        match shape:
-            case {"anyOf": several}:
-                fitting = next(one for one in several if is_for(one, item))
-                return self.item(fitting, item, place, unit, ending)
-            case {"type": "number" | "integer" as kind}:
-                number = _in_si(item, unit, ending)
-                if number is None or not _is_within(number, shape):
-                    return self._refused(shape, item, place, unit, ending)
-                return int(number) if kind == "integer" else number
-            case {"type": "array"}:
-                shapes = shape.get("prefixItems", [shape.get("items")] * len(item))
-                *before, last = place or ("",)
-                pairs = ((one, (*before, f"{last}[{n}]")) for n, one in enumerate(shapes))
-                found = [self.item(one, item[n], at, unit, ending) for n, (one, at) in enumerate(pairs)]
-                return FAILED if FAILED in found else tuple(found)
-            case {"type": "object"}:
-                return self._table(shape, item, place, unit, ending)
-        return item
-
-    def _refused(self, shape: Shape, item: Any, place: Place, unit: Unit | None, ending: str) -> Failed:
+    def _refuse(
+        self, shape: Shape, item: Any, place: Place, unit: Unit | None, ending: str, error: Any = None
+    ) -> None:
+        """Note an item that does not fit, and what does; error: pydantic's, whose own words may be better."""
+        said_of_item = f"{said_place(place)} = {said(item)}"
+        shape = either([one for one in options(shape) if _is_of_kind(one, item)] or options(shape))
         if "names" in shape and isinstance(item, str):
             names = shape["names"]
             more = f"; {names.instead(item)}" if names.instead else ""
-            self.faults.add((), f"{said_place(place)} = {said(item)}: {nearest(item, names.options)}{more}")
-            return FAILED
+            self.faults.add((), f"{said_of_item}: {nearest(item, names.options)}{more}")
+            return
+        if error is not None and error["type"] == "value_error" and _is_for(shape, item, unit, ending):
+            self.faults.add((), f"{said_of_item}: {error['ctx']['error']}")
+            return
+        if error is not None and error["type"] in LENGTHS and "prefixItems" not in shape:
+            least, most = (error["ctx"].get(f"{end}_length") for end in ("min", "max"))
+            self.faults.wrong(place, item, f"at least {least} items" if least else f"at most {most} items")
+            return
         range_ = allowed(shape, unit, ending)
-        if shape.get("type") in ("number", "integer"):
-            if not is_for(shape, item):
-                range_ = range_ if range_.startswith("a ") else f"a number {range_}"
-            elif _in_si(item, unit, ending) is None:
-                range_ += f" up to {LARGEST:g}, in SI"
+        if is_number(shape) and not _is_number(item):
+            range_ = range_ if range_.startswith("a ") else f"a number {range_}"
+        elif is_number(shape) and not abs(_number_in_si(item, unit, ending)) <= LARGEST:
+            range_ += f" up to {LARGEST:g}, in SI"
         self.faults.wrong(place, item, range_)
-        return FAILED
+
+    def _in_si(self, shape: Shape, item: Any, place: Place, unit: Unit | None, ending: str) -> Any:
+        """An item as pydantic takes it: numbers in SI, values of classes; FAILED if it is wrong inside."""
+        several = options(shape)
+        if item is FAILED:
+            return item
+        if _is_number(item) and shape.get("type") != "boolean":
+            return item if unit is None and isinstance(item, int) else _number_in_si(item, unit, ending)
+        if isinstance(item, dict) and self.sourced is not None and _says_more(shape, item):
+            return self._sourced(self.sourced, shape, item, place, unit, ending)
+        group = next((one["group"] for one in several if "group" in one), None)
+        if group is not None and (len(several) == 1 or isinstance(item, dict)):
+            return self.member(group, item, place)
+        if shape.get("type") == "boolean" and not isinstance(item, bool):  # where pydantic takes "yes", too
+            self._refuse(shape, item, place, unit, ending)
+            return FAILED
+        if isinstance(item, list):
+            *before, last = place or ("",)
+            return tuple(
+                self._in_si(inner_shape(shape, n), one, (*before, f"{last}[{n}]"), unit, ending)
+                for n, one in enumerate(item)
+            )
+        if not isinstance(item, dict):
+            return item
+        known: Mapping[str, Shape] = shape.get("properties", {})
+        found, ok = {}, True
+        for name, one in item.items():
+            if known and name not in known:
+                ok = False
+                hint = "" if self.faults.is_full else f"; {nearest(name, known)}"
+                self.faults.add((*place, name), f"unknown key{hint}")
+            else:
+                found[name] = self._in_si(inner_shape(shape, name), one, (*place, name), unit, ending)
+        meant = {near for name in item if name not in known for near in get_close_matches(name[:80], known, 1)}
+        for name in shape.get("required", ()):
+            if name not in item:
+                ok = False
+                if name not in meant:
+                    told = known[name]["description"]
+                    self.faults.add((*place, name), f"missing; it has no default: {told}")
+        return found if ok else FAILED
 
     def _sourced(
         self,
@@ -186,17 +236,15 @@ class Reader:
         unit: Unit | None,
         ending: str,
     ) -> Any:
-        """The value of a number that is a table with its range and source; the whole is put into `found`."""
+        """The value in SI of a number that is a table with its range and source, which is put into `found`."""
         before = len(self.faults.lines)
+        shape = next(one for one in options(shape) if is_number(one))
         for key in [one for one in table if one not in SOURCED_KEYS]:
-            guess = "" if self.faults.is_full else nearest(key, SOURCED_KEYS)
-            self.faults.add((*place, key), f"{UNKNOWN}; {guess}")
+            self.faults.add((*place, key), f"unknown key; {nearest(key, SOURCED_KEYS)}")
         numbers = {key: table[key] for key in ("value", "from", "to") if key in table}
         for key, item in numbers.items():
-            if is_for(shape, item):
-                numbers[key] = self.item(shape, item, (*place, key), unit, ending)
-            else:
-                self._refused(shape, item, (*place, key), unit, ending)
+            if not (_is_number(item) and _is_within(_number_in_si(item, unit, ending), shape)):
+                self._refuse(shape, item, (*place, key), unit, ending)
         if "value" not in table and table.keys() <= SOURCED_KEYS.keys():  # it may be misspelt
             self.faults.add((*place, "value"), "missing; it has no default")
         for one, other in (("from", "to"), ("to", "from")):
@@ -213,35 +261,14 @@ class Reader:
                 self.faults.wrong((*place, "value"), table["value"], f"from {said(low)} to {said(high)}")
         if len(self.faults.lines) > before:
             return FAILED
-        written = {key: Decimal(str(table[key])) for key in numbers}
+        written = {key: Decimal(str(item)) for key, item in numbers.items()}
         found[dotted_key(place)] = SourcedNumber(
             written["value"], written.get("from"), written.get("to"), source
         )
-        return numbers["value"]
+        return _number_in_si(table["value"], unit, ending)
 
-    def _table(self, shape: Shape, table: Any, place: Place, unit: Unit | None, ending: str) -> Any:
-        """A table of items by name: of any, or of those that the shape has."""
-        known: Mapping[str, Shape] = shape.get("properties", {})
-        found: dict[str, Any] = {}
-        for name, item in table.items():
-            here = (*place, name)
-            if self.faults.is_full:
-                self.faults.lines.append(UNKNOWN)
-                found[name] = FAILED
-            elif inner := known.get(name, shape.get("additionalProperties")):
-                found[name] = self.item(inner, item, here, unit, ending)
-            else:
-                self.faults.add(here, f"unknown key; {nearest(name, known)}")
-                meant = get_close_matches(name[:80], known, 1)  # which is not called missing too
-                found[meant[0] if meant else name] = FAILED
-        for name in shape.get("required", ()):
-            if name not in found:
-                self.faults.add((*place, name), f"missing; it has no default: {known[name]['description']}")
-                found[name] = FAILED
-        return FAILED if FAILED in found.values() else found
-
-    def _group(self, shape: Shape, item: Any, place: Place) -> Any:
-        group: GroupShape = shape["group"]
+    def member(self, group: GroupShape, item: Any, place: Place) -> Any:
+        """A value of a group of classes from an item of a file; FAILED, with the reason among the faults."""
         for base, short_form in self.short_forms.items():
             if any(issubclass(one, base) for one in group.bases):
                 found = short_form(self, item, place)
@@ -250,23 +277,18 @@ class Reader:
         if isinstance(item, group.bases):  # made by a program, see `simple_scenario`
             return item
         if not isinstance(item, dict):
-            return self._refused(shape, item, place, None, "")
-        cls = self._kind(group, item, place)
-        return FAILED if cls is None else self.value(cls, item, place)
-
-    def _kind(self, group: GroupShape, table: Mapping[str, Any], place: Place) -> type[Value] | None:
-        """The class that a table says it is of; None if that is not known."""
-        name = table.get("type")
+            self._refuse({"group": group}, item, place, None, "")
+            return FAILED
+        name = item.get("type")
+        cls = group.usual if name is None else group.kinds.get(name) if isinstance(name, str) else None
+        if cls is not None:
+            return self.value(cls, item, place)
         if name is None:
-            if group.usual is None:
-                self.faults.add((*place, "type"), f"missing; allowed: {', '.join(group.kinds) or 'none'}")
-            return group.usual
-        if not isinstance(name, str) or name not in group.kinds:
-            known = nearest(name if isinstance(name, str) else "", group.kinds)
-            said_kinds = f"{known}; classes of one's own: --import FILE"
-            self.faults.add((), f"{said_place((*place, 'type'))} = {said(name)}: {said_kinds}")
-            return None
-        return group.kinds[name]
+            self.faults.add((*place, "type"), f"missing; allowed: {', '.join(group.kinds) or 'none'}")
+        else:
+            known = f"{nearest(str(name), group.kinds)}; classes of one's own: --import FILE"
+            self.faults.add((), f"{said_place((*place, 'type'))} = {said(name)}: {known}")
+        return FAILED
 
 
 def read_value(
@@ -287,7 +309,7 @@ def read_value(
     Raises InputError with a line for everything that is wrong: file, key, value, and what is allowed.
     """
     faults = Faults(where)
-    found = Reader(faults, short_forms, sourced).item({"group": GroupShape((cls,))}, table, ())
+    found = Reader(faults, short_forms, sourced).member(GroupShape((cls,)), table, ())
     faults.check()
     return found  # type: ignore[no-any-return]
 
@@ -300,30 +322,44 @@ def _removed(cls: type[Value], key: str) -> tuple[str, str] | None:
     return None
 
 
-def _unknown(key: str, shapes: Mapping[str, FieldShape], also: Iterable[str]) -> tuple[str, str]:
+def _unknown(key: str, fields: Mapping[str, FieldShape], also: Iterable[str]) -> tuple[str, str]:
     """The field that a wrong key may mean, so that it is not called missing too; and what is said of it."""
-    for field in shapes.values():
+    for field in fields.values():
         if field.unit is not None and key.startswith(f"{field.name}_"):
             return field.name, f"has another unit; allowed: {', '.join(field.keys)}"
         if key == field.name:
             return field.name, f"is written with its unit; allowed: {', '.join(field.keys)}"
-    of = {key: one.name for one in shapes.values() for key in one.keys}
+    of = {key: one.name for one in fields.values() for key in one.keys}
     guess = nearest(key, [*also, *of]).partition("allowed: ")[0]
-    usual = ", ".join([*also, *(one.keys[0] for one in shapes.values())])
+    usual = ", ".join([*also, *(one.keys[0] for one in fields.values())])
     near = get_close_matches(key[:80], of, 1)
     return of[near[0]] if near else key, f"unknown key; {guess}allowed: {usual or 'none'}"
 
 
-def _says_more(shape: Shape, item: Any) -> bool:
-    """Whether an item is the table of a number; one of another kind, which may be there, says its type."""
-    if not isinstance(item, dict) or not is_for(shape, 0):
-        return False
-    return not is_for(shape, item) or ("value" in item and "type" not in item)
+def _says_more(shape: Shape, item: Mapping[str, Any]) -> bool:
+    """Whether a table is that of a number; one of another kind, which may be there, says its type."""
+    several = options(shape)
+    tables = any("group" in one or one.get("type") == "object" for one in several)
+    return any(map(is_number, several)) and (not tables or ("value" in item and "type" not in item))
 
 
-def _numeric(shape: Shape) -> Shape:
-    """The shape of a number, where that is among what may be."""
-    return either([one for one in options(shape) if one.get("type") in ("number", "integer")])
+def _is_of_kind(shape: Shape, item: Any) -> bool:
+    """Whether an item is a table, list, text or number, as a shape is."""
+    if isinstance(item, dict):
+        return "group" in shape or shape.get("type") == "object"
+    if isinstance(item, list):
+        return shape.get("type") == "array"
+    return is_number(shape) if _is_number(item) else isinstance(item, str) and shape == {"type": "string"}
+
+
+def _is_for(shape: Shape, item: Any, unit: Unit | None, ending: str) -> bool:
+    """Whether an item is of a kind of a shape, so that a check of a class has refused it."""
+    fits = any(_is_of_kind(one, item) for one in options(shape))
+    return fits and (not _is_number(item) or abs(_number_in_si(item, unit, ending)) <= LARGEST)
+
+
+def _is_number(item: Any) -> bool:
+    return isinstance(item, (int, float, Decimal)) and not isinstance(item, bool)
 
 
 def _holds_number(item: Any) -> bool:
@@ -331,43 +367,30 @@ def _holds_number(item: Any) -> bool:
         return any(map(_holds_number, item[:100]))
     if isinstance(item, dict):
         return "type" not in item and _holds_number(item.get("value"))
-    return isinstance(item, (int, Decimal)) and not isinstance(item, bool)
+    return _is_number(item)
 
 
-def is_for(shape: Shape, item: Any) -> bool:
-    """Whether an item is of the kind that a shape takes, whatever its range."""
-    match shape:
-        case {"anyOf": several}:
-            return any(is_for(one, item) for one in several)
-        case {"group": group}:
-            return isinstance(item, (dict, *group.bases))
-        case {"type": "object"}:
-            return isinstance(item, dict)
-        case {"enum": choices}:
-            return any(type(one) is type(item) and one == item for one in choices)
-        case {"names": names}:
-            return isinstance(item, str) and item in names.options
-        case {"type": "array"}:
-            return isinstance(item, list) and len(item) == len(shape.get("prefixItems", item))
-        case {"type": "number" | "integer"}:
-            return isinstance(item, (int, float, Decimal)) and not isinstance(item, bool)
-    return isinstance(item, str if shape["type"] == "string" else bool)
+def _has(item: Any, part: Any) -> bool:
+    """Whether a table or a list has an entry."""
+    if isinstance(item, list):
+        return isinstance(part, int) and part < len(item)
+    return isinstance(item, dict) and part in item
 
 
-def _in_si(item: int | float | Decimal, unit: Unit | None, ending: str) -> float | None:
-    """A number in SI, rounded once; None if it is not finite or too large."""
+def _number_in_si(item: int | float | Decimal, unit: Unit | None, ending: str) -> float:
+    """A number in SI, rounded once; infinite if it is too large, or none."""
     if isinstance(item, int) and abs(item) > LARGEST * 1e9:
-        return None
+        return math.inf
     written = Decimal(repr(item)) if isinstance(item, float) else Decimal(item)
     if not written.is_finite() or written.adjusted() > math.log10(LARGEST) + 10:
-        return None
+        return math.inf
     if written.adjusted() < SMALLEST_EXPONENT:
         return 0.0
-    number = float(written) if unit is None else unit.read(written, ending)
-    return number if abs(number) <= LARGEST else None
+    return float(written) if unit is None else unit.read(written, ending)
 
 
 def _is_within(number: float, shape: Shape) -> bool:
     """Whether a number is one of a shape."""
     bounds = (fits(number, shape[name]) for name, (*_, fits) in BOUNDS.items() if name in shape)
-    return all(bounds) and (shape["type"] == "number" or number == math.floor(number))
+    whole = shape["type"] == "number" or number == math.floor(number)
+    return abs(number) <= LARGEST and whole and all(bounds)

@@ -15,6 +15,7 @@ from support_exudyn.files.toml.shapes import (
     Shape,
     either,
     field_shapes,
+    is_number,
     is_numeric,
     options,
     scaled,
@@ -92,8 +93,6 @@ class Schemas:
                 return {"anyOf": list(map(inner, several))}
             case {"group": group}:
                 return self._group(group)
-            case {"enum": choices}:
-                return {"enum": list(choices)}
             case {"names": names}:
                 known = {"enum": list(names.options)}
                 # classes of one's own are named by their place
@@ -102,24 +101,29 @@ class Schemas:
                 )
             case {"prefixItems": shapes}:
                 items = list(map(inner, shapes))
-                same = all(one == items[0] for one in items)
-                inside = {"items": items[0]} if same else {"prefixItems": items}
-                return {"type": "array", **inside, "minItems": len(items), "maxItems": len(items)}
+                if all(one == items[0] for one in items):  # as older drafts have it, too
+                    return {**_but(shape, "prefixItems"), "items": items[0]}
+                return {**shape, "prefixItems": items}
             case {"items": item}:
-                return {"type": "array", "items": inner(item)}
-            case {"additionalProperties": item}:
-                return {"type": "object", "additionalProperties": inner(item)}
+                return {**shape, "items": inner(item)}
             case {"properties": known}:
-                needed = {"required": list(shape["required"])} if shape.get("required") else {}
                 of_unit = f" [{ending}]" if ending else ""
                 inside = {
-                    name: {"description": one.get("description", name) + of_unit, **inner(one)}
+                    name: {
+                        "description": one.get("description", name) + of_unit,
+                        **inner(_but(one, "description")),
+                    }
                     for name, one in known.items()
                 }
+                needed = {"required": list(shape["required"])} if shape.get("required") else {}
                 return {"type": "object", "properties": inside, **needed, "additionalProperties": False}
+            case {"additionalProperties": item}:
+                return {**shape, "additionalProperties": inner(item)}
+        if not is_number(shape):
+            return dict(shape)
         bounds = {name: _plain(scaled(shape[name], unit, ending)) for name in BOUNDS if name in shape}
         plain = {"type": shape["type"], **bounds}
-        if not self.sourced or shape["type"] not in ("number", "integer"):
+        if not self.sourced:
             return plain
         table: Table = {"$ref": f"#/$defs/{SourcedNumber.__name__}"}
         if bounds:
@@ -140,6 +144,11 @@ class Schemas:
     def whole(self, title: str, table: Table) -> Table:
         """A schema of a file, with all that it refers to."""
         return {"$schema": DRAFT, "title": title, **table, "$defs": dict(sorted(self.defs.items()))}
+
+
+def _but(shape: Shape, key: str) -> Table:
+    """A shape without a keyword."""
+    return {word: one for word, one in shape.items() if word != key}
 
 
 def _sourced() -> Table:

@@ -1,33 +1,33 @@
-"""Shapes say what a field of a value can hold in a file: reading, writing and schemas go by them.
+"""Shapes say what a field of a value can hold in a file: messages, schemas and writing go by them.
 
-A shape is found from the type of the field. It is a JSON Schema whose numbers are in SI, with two keywords of
-our own. `group`: the item is a value of one of a `GroupShape` of classes. `names`: the item is a text out of
-`Names` that are asked for when it is read.
+A shape is the JSON Schema that pydantic makes of the field, with numbers in SI and two keywords of our own.
+`group`: the item is a value of one of a `GroupShape` of classes. `names`: the item is a text out of `Names`
+that are asked for when it is read.
 """
 
 import inspect
 import operator
 import re
-import types
 import typing
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import MISSING, dataclass
 from dataclasses import fields as dataclass_fields
 from decimal import Decimal
 from functools import cache
-from typing import Any, Literal
+from typing import Any
 
 from pydantic import GetCoreSchemaHandler
 from pydantic.fields import FieldInfo
+from pydantic.json_schema import GenerateJsonSchema
 from pydantic_core import core_schema
 from typing_extensions import Never
 
 from support_exudyn.files.toml.faults import said
 from user_forces.values.units import Unit
-from user_forces.values.value import InputError, Value, is_kind_of, known_classes
+from user_forces.values.value import GROUP, InputError, Value, is_kind_of, known_classes
 
 Shape = Mapping[str, Any]
-# keywords of JSON Schema, each with its name in metadata, its sign and what fits it
+# keywords of JSON Schema, each with pydantic's name, its sign and what fits it
 BOUNDS: dict[str, tuple[str, str, Callable[[float, float], bool]]] = {
     "exclusiveMinimum": ("gt", ">", operator.gt),
     "minimum": ("ge", ">=", operator.ge),
@@ -64,6 +64,13 @@ class Names:
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> Any:
         """For pydantic: no value has another name."""
         return core_schema.no_info_after_validator_function(self._checked, handler(source))
+
+    def __get_pydantic_json_schema__(self, core: Any, handler: Any) -> Shape:
+        """The shape: the names of a text, or the keys of a table and so of the tables in it."""
+        shape = handler(core)
+        if "additionalProperties" not in shape:
+            return {"names": self}
+        return {**_named(shape["additionalProperties"], self.known), "required": self.required}
 
     def _checked(self, item: Any) -> Any:
         missing = [name for name in self.required if name not in item]
@@ -158,6 +165,11 @@ def is_numeric(shape: Shape) -> bool:
     return shape.get("type") in ("number", "integer", "array", "object")
 
 
+def is_number(shape: Shape) -> bool:
+    """Whether what fits a shape is a number of any size in its bounds."""
+    return shape.get("type") in ("number", "integer") and "enum" not in shape
+
+
 def field_shapes(cls: type[Value]) -> Mapping[str, FieldShape]:
     """The fields of a class, by name. Raises InputError for one of a type that files have no form for."""
     return _field_shapes(cls)  # type: ignore[arg-type]  # of values, which its hash is not of
@@ -167,15 +179,14 @@ def field_shapes(cls: type[Value]) -> Mapping[str, FieldShape]:
 def _field_shapes(cls: type[Value]) -> Mapping[str, FieldShape]:
     found: dict[str, FieldShape] = {}
     declared: Mapping[str, FieldInfo] = cls.__pydantic_fields__  # type: ignore[attr-defined]
+    shapes = _Shapes(cls.__name__).generate(cls.__pydantic_core_schema__)["properties"]  # type: ignore[attr-defined]
     for one in dataclass_fields(cls):  # type: ignore[arg-type]
         info = declared[one.name]
-        members = _members(info.annotation, tuple(info.metadata))
-        shapes = [_shape(kind, metadata, f"{cls.__name__}.{one.name}") for kind, metadata in members if kind]
-        allows_none = len(shapes) < len(members)
+        allows_none = type(None) in typing.get_args(info.annotation)
         needed = one.default is MISSING and one.default_factory is MISSING and info.is_required()
         found[one.name] = FieldShape(
             name=one.name,
-            shape=either(shapes),
+            shape=shapes[one.name],
             unit=_unit(info.annotation, info.metadata),
             required=needed and not allows_none,
             allows_none=allows_none,
@@ -185,44 +196,52 @@ def _field_shapes(cls: type[Value]) -> Mapping[str, FieldShape]:
     return found
 
 
-def _members(annotation: Any, metadata: Sequence[Any] = ()) -> list[tuple[Any, tuple[Any, ...]]]:
-    """The members of a union, with the metadata of each; None for NoneType."""
-    if typing.get_origin(annotation) is typing.Annotated:
-        inner, *more = typing.get_args(annotation)
-        return _members(inner, (*more, *metadata))
-    if typing.get_origin(annotation) in (typing.Union, types.UnionType):
-        return [one for member in typing.get_args(annotation) for one in _members(member, metadata)]
-    return [(None if annotation is type(None) else annotation, tuple(_flat(metadata)))]
+class _Shapes(GenerateJsonSchema):
+    """Pydantic's generator of JSON Schemas, for the shapes of the fields of a class.
 
+    where: the class, for messages.
+    """
 
-def _shape(annotation: Any, metadata: Sequence[Any], where: str) -> Shape:
-    origin, arguments = typing.get_origin(annotation), typing.get_args(annotation)
-    names = next((one for one in metadata if isinstance(one, Names)), None)
+    def __init__(self, where: str) -> None:
+        super().__init__()
+        self.where = where
 
-    def inner(item: Any) -> Shape:
-        shapes = [_shape(kind, more, where) for kind, more in _members(item) if kind]
-        return either(shapes) if shapes else _no_form(where, item)
+    def generate_inner(self, schema: Any) -> dict[str, Any]:
+        """The shape of what a schema of pydantic takes, its bounds by the words of JSON Schema."""
+        shape = super().generate_inner(schema)
+        for word, (name, *_) in BOUNDS.items():
+            if name in shape:
+                shape[word] = float(shape.pop(name))
+        return shape
 
-    if origin is Literal:
-        return {"enum": arguments}
-    if annotation in (float, int):
-        limits = [(word, getattr(one, name, None)) for one in metadata for word, (name, *_) in BOUNDS.items()]
-        bounds = {word: float(limit) for word, limit in limits if limit is not None}
-        return {"type": "number" if annotation is float else "integer", **bounds}
-    if annotation in (bool, str):
-        return {"names": names} if names else {"type": "boolean" if annotation is bool else "string"}
-    if origin is tuple and arguments and arguments[-1] is not Ellipsis:
-        return {"type": "array", "prefixItems": tuple(map(inner, arguments))}
-    if origin in (tuple, frozenset, list):
-        return {"type": "array", "items": inner(arguments[0])}
-    if inspect.isclass(origin) and issubclass(origin, Mapping):
-        item = inner(arguments[1])
-        if names is None:
-            return {"type": "object", "additionalProperties": item}
-        return {**_named(item, names.known), "required": names.required}
-    if inspect.isclass(annotation) and issubclass(annotation, Value):
-        return {"group": GroupShape((annotation,))}
-    return _no_form(where, annotation)
+    def field_title_should_be_set(self, schema: Any) -> bool:
+        """No field has a title: its key says as much."""
+        return False
+
+    def function_plain_schema(self, schema: Any) -> Any:
+        """The group of a class of values."""
+        cls = schema.get("metadata", {}).get(GROUP)
+        return super().function_plain_schema(schema) if cls is None else {"group": GroupShape((cls,))}
+
+    def nullable_schema(self, schema: Any) -> Any:
+        """The shape without None, which a file says by leaving a key out."""
+        return self.generate_inner(schema["schema"])
+
+    def default_schema(self, schema: Any) -> Any:
+        """The shape without the default, which `FieldShape` has."""
+        return self.generate_inner(schema["schema"])
+
+    def union_schema(self, schema: Any) -> Any:
+        """One shape of several."""
+        choices = [one[0] if isinstance(one, tuple) else one for one in schema["choices"]]
+        return either(list(map(self.generate_inner, choices)))
+
+    def handle_invalid_for_json_schema(self, schema: Any, error_info: str) -> Never:
+        """Raise InputError: a field is of a type that files have no form for."""
+        raise InputError(
+            f"{self.where}: has a field of a type that files have no form for, {error_info}; allowed: numbers, "
+            "texts, bool, Literal, values, and tuples and mappings of them"
+        )
 
 
 def _named(item: Shape, known: Any) -> dict[str, Any]:
@@ -236,28 +255,26 @@ def _named(item: Shape, known: Any) -> dict[str, Any]:
     return {"type": "object", "properties": inside}
 
 
-def _no_form(where: str, annotation: Any) -> Never:
-    raise InputError(
-        f"{where}: is of type {annotation}, which files have no form for; allowed: numbers, texts, bool, "
-        "Literal, values, and tuples and mappings of them"
-    )
-
-
-def _flat(metadata: Sequence[Any]) -> Iterator[Any]:
-    """Metadata, with those that stand in a `Field(...)`."""
-    for item in metadata:
-        yield from _flat(item.metadata) if isinstance(item, FieldInfo) else (item,)
-
-
 def _unit(annotation: Any, metadata: Sequence[Any] = ()) -> Unit | None:
     """The unit in a type, or in what it holds; not in the classes that it may be."""
-    for item in _flat(metadata):
+    for item in metadata:
         if isinstance(item, Unit):
             return item
     if typing.get_origin(annotation) is typing.Annotated:
         inner, *more = typing.get_args(annotation)
         return _unit(inner, more)
     return next(filter(None, map(_unit, typing.get_args(annotation))), None)
+
+
+def inner_shape(shape: Shape, at: str | int) -> Shape:
+    """The shape of what is at a name of a table or a place of a list."""
+    for one in options(shape):
+        if one.get("type") == "array" and isinstance(at, int):
+            each: Sequence[Shape] = one.get("prefixItems", ())
+            return each[at] if at < len(each) else one.get("items", {})
+        if one.get("type") == "object" and isinstance(at, str):
+            return one.get("properties", {}).get(at) or one.get("additionalProperties", {})  # type: ignore[no-any-return]
+    return {}
 
 
 # --- in words ---
@@ -282,6 +299,8 @@ def allowed(shape: Shape, unit: Unit | None = None, ending: str = "") -> str:
             return f"a table of type {', '.join(group.kinds)}" if group.kinds else "none"
         case {"enum": choices}:
             return ", ".join(map(said, choices))
+        case {"const": choice}:
+            return said(choice)
         case {"names": names}:
             return ", ".join(map(said, names.options))
         case {"type": "number" | "integer" as kind}:
@@ -292,10 +311,10 @@ def allowed(shape: Shape, unit: Unit | None = None, ending: str = "") -> str:
             return f"a list of {len(items)}, each {' or '.join(dict.fromkeys(map(inner, items)))}"
         case {"items": item}:
             return f"a list, each {inner(item)}"
-        case {"additionalProperties": item}:
-            return f"a table of names, each {inner(item)}"
         case {"properties": names}:
             return f"a table of {', '.join(names)}"
+        case {"additionalProperties": item}:
+            return f"a table of names, each {inner(item)}"
     return "a text" if shape["type"] == "string" else "true, false"
 
 

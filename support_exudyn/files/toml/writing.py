@@ -5,7 +5,7 @@ from decimal import Decimal
 from typing import Any
 
 from support_exudyn.files.own_modules import NotImported
-from support_exudyn.files.toml.shapes import FieldShape, Shape, field_shapes, options
+from support_exudyn.files.toml.shapes import FieldShape, Shape, field_shapes, inner_shape, options
 from user_forces.values.units import Unit
 from user_forces.values.value import InputError, Value
 
@@ -47,20 +47,10 @@ def _item(item: Any, shape: Shape, unit: Unit | None, endings: tuple[str, ...]) 
         group = next(one["group"] for one in options(shape) if "group" in one)
         return table_of(item, group.says_type or type(item) is not group.bases[0], endings[1:])
     if isinstance(item, Mapping):
-        return {name: _item(one, _inner(shape, name), unit, endings) for name, one in item.items()}
+        return {name: _item(one, inner_shape(shape, name), unit, endings) for name, one in item.items()}
     if isinstance(item, (tuple, list, frozenset)):
         items = sorted(item) if isinstance(item, frozenset) else item
-        return [_item(one, _inner(shape, n), unit, endings) for n, one in enumerate(items)]
+        return [_item(one, inner_shape(shape, n), unit, endings) for n, one in enumerate(items)]
     if isinstance(item, float) or (isinstance(item, int) and not isinstance(item, bool) and unit is not None):
         return Decimal(repr(item)) if unit is None else unit.write(float(item), endings[0])
     return item
-
-
-def _inner(shape: Shape, at: str | int) -> Shape:
-    """The shape of what is at a name of a table or a place of a list."""
-    for one in options(shape):
-        if one.get("type") == "array" and isinstance(at, int):
-            return one["prefixItems"][at] if "prefixItems" in one else one["items"]  # type: ignore[no-any-return]
-        if one.get("type") == "object" and isinstance(at, str):
-            return one["properties"][at] if "properties" in one else one["additionalProperties"]  # type: ignore[no-any-return]
-    return shape
