@@ -2,11 +2,11 @@
 
 from studies.blow import run as blow
 from studies.claims import run as claims
-from studies.clearance_influence import run as clearance_influence
-from studies.clearance_size import run as clearance_size
+from studies.clearance import run as clearance
 from studies.common.study import Study
 from studies.contact_laws import run as contact_laws
 from studies.drive_mode import run as drive_mode
+from studies.drive_mode import valves as valve_modes
 from studies.extremes import run as extremes
 from studies.outside import run as outside
 from studies.scene_detail import run as scene_detail
@@ -14,12 +14,12 @@ from studies.slack_stiffness import run as slack_stiffness
 from studies.slider_crank import run as slider_crank
 from studies.speed_accuracy import run as speed_accuracy
 from studies.stability import run as stability
-from studies.valve_modes import run as valve_modes
 from studies.which_pin import run as which_pin
 
 _IN_ORDER = (
-    clearance_influence, clearance_size, drive_mode, valve_modes, claims, which_pin, scene_detail, contact_laws,
-    slider_crank, outside, stability, blow, slack_stiffness, speed_accuracy, extremes,
+    clearance.influence, clearance.size, drive_mode.study, valve_modes.study, claims.study, which_pin.study,
+    scene_detail.study, contact_laws.study, slider_crank.study, outside.study, stability.study, blow.study,
+    slack_stiffness.study, speed_accuracy.study, extremes.study,
 )  # fmt: skip
-STUDIES: dict[str, Study] = {module.study.name: module.study for module in _IN_ORDER}
+STUDIES: dict[str, Study] = {study.name: study for study in _IN_ORDER}
 DEFAULT = ("clearance_influence", "clearance_size", "drive_mode", "claims")  # the answer to the paper

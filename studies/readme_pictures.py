@@ -15,8 +15,8 @@ from typing import Annotated
 from matplotlib.figure import Figure
 from PIL import Image
 
-from studies.clearance_influence import figures as influence_figures
-from studies.clearance_influence import run as clearance_influence
+from studies.clearance import figures as influence_figures
+from studies.clearance import run as clearance
 from studies.common import paper_machine
 from studies.common.options import MOST_WORKERS, Options
 from studies.common.runs import run_cases
@@ -52,7 +52,7 @@ class Runs:
     @cached_property
     def paper(self) -> Mapping[str, Result]:
         """The cases of `clearance_influence` at its steps."""
-        return run_cases(clearance_influence.scenarios(), Options(Path(), self.workers))
+        return run_cases(clearance.influence_cases(), Options(Path(), self.workers))
 
     @property
     def with_clearance(self) -> Result:
@@ -99,7 +99,7 @@ def drawn(figure: Callable[[Runs], Figure]) -> Callable[[Runs, Path], None]:
 PICTURES: dict[str, Callable[[Runs, Path], None]] = {
     "machine.png": machine,
     "rise.gif": movie,
-    "pin_force.png": drawn(lambda runs: influence_figures.figures(runs.paper)["fig5_pin_force"]),
+    "pin_force.png": drawn(lambda runs: influence_figures.influence_figures(runs.paper)["fig5_pin_force"]),
     "journal_orbit.png": drawn(lambda runs: orbit(runs.with_clearance, paper_machine.CLEARANCE_PIN)),
     "spectrum.png": drawn(lambda runs: force_spectrum(runs.with_clearance, paper_machine.CLEARANCE_PIN, *RISE)),
     "map_step_stiffness.png": drawn(map_step_stiffness),

@@ -10,7 +10,7 @@ from typing import cast
 import numpy as np
 import numpy.typing as npt
 
-from studies.common.rise import Crest
+from studies.common.rise import Crest, Versus
 from studies.common.runs import halvings
 from support_exudyn import Result
 from support_exudyn.files.whole_file import whole_file
@@ -87,18 +87,33 @@ def error_of_records(thinned: Callable[[int], float]) -> float:
     return max(weight * abs(thinned(every) - found) for every, weight in ((2, 1.0), (4, 0.5), (5, 0.5)))
 
 
-Measures = Mapping[str, tuple[str, Measure]]  # unit and measure, by name
+Measures = Mapping[str, tuple[str, Measure | Versus]]  # unit and measure, by name
 
 
 def measured_all(
-    results: Mapping[str, Result], measures: Measures | Callable[[Result], Measures]
+    results: Mapping[str, Result],
+    measures: Measures | Callable[[Result], Measures],
+    ideal_of: Callable[[str], str] = str,
+    papers: Mapping[tuple[str, str], float] | None = None,
 ) -> list[Number]:
-    """Every measure of every run; measures: alike for all runs, or by the run."""
-    return [
-        measured(name, case, unit, result, measure)
-        for case, result in results.items()
-        for name, (unit, measure) in (measures(result) if callable(measures) else measures).items()
-    ]
+    """Every measure of every run.
+
+    Arguments:
+        results: runs by case.
+        measures: alike for all runs, or by the run.
+        ideal_of: the case with the ideal pin that a case is compared with, for measures of both.
+        papers: printed values by name and case.
+    """
+    numbers = []
+    for case, run in results.items():
+        for name, (unit, measure) in (measures(run) if callable(measures) else measures).items():
+            paper = (papers or {}).get((name, case))
+            if isinstance(measure, Versus):
+                ideal = results[ideal_of(case)]
+                numbers.append(compared(name, case, unit, run, ideal, measure.get, paper))
+            else:
+                numbers.append(measured(name, case, unit, run, measure, paper))
+    return numbers
 
 
 def counted(name: str, case: str, result: Result, count: Callable[[Result], int]) -> Number:

@@ -10,9 +10,8 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from studies.common import rise
+from studies.common.numbers import Number
 from support_exudyn.postprocessing.figures import style
-
-WINDOWS = {"early": (3.0, 3.12), "middle": (4.0, 4.12), "late": (4.6, 4.72)}  # enlarged in Fig. 3 and 6 [s]
 
 
 def letters(panels: Sequence[Axes]) -> None:
@@ -56,6 +55,28 @@ def finish(drawing: Figure, panels: Iterable[Axes], columns: int = 0, key: Axes 
         handles = (key or shown[0]).get_legend_handles_labels()
         drawing.legend(*handles, loc="outside lower center", ncols=columns)
     return drawing
+
+
+def heading(axes: Axes, text: str) -> None:
+    """A title in the middle above a panel."""
+    axes.annotate(text, (0.5, 1.0), (0.0, 4.0), "axes fraction", "offset points", ha="center", fontsize=8)
+
+
+def error_bars(
+    axes: Axes,
+    places: Sequence[float],
+    row: Sequence[Number],
+    scale: float = 1.0,
+    *,
+    across: bool = False,
+    **look: Any,
+) -> None:
+    """Numbers with their errors at places along the x axis; across: along the y axis."""
+    values, errors = ([scale * getattr(n, one) for n in row] for one in ("value", "numerical_error"))
+    if across:
+        axes.errorbar(values, places, xerr=errors, **look)
+    else:
+        axes.errorbar(places, values, yerr=errors, **look)
 
 
 def fit_height(axes: Axes, curves: Iterable[rise.Series]) -> None:

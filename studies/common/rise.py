@@ -8,7 +8,7 @@ departure from another run, they are integrals by the trapezoidal rule through t
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal, Protocol
+from typing import Any, Literal, Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -43,9 +43,14 @@ class MeasuredRun(Protocol):
         ...
 
 
-Measure = Callable[[MeasuredRun], float]
+@dataclass(frozen=True)
+class Versus:
+    """A measure of a run against that of the ideal pin; see `Watched.shift`."""
+
+    get: Callable[[Any, Any], float]
 
 
+Measure = Callable[[Any], float]  # of a run
 TAKEN: dict[str, Callable[[TimeWindow], float]] = {
     "largest": lambda window: window.largest[0],
     "max": lambda window: window.greatest[0],
@@ -104,6 +109,9 @@ def trend(run: MeasuredRun, values: Series, window: float = TREND_WINDOW) -> Ser
     places, at = np.arange(padded.size), np.arange(values.size) + beyond
     before, after = (np.interp(at + side, places, integral) for side in (-half, half))
     return np.asarray((after - before) / (2.0 * half))
+
+
+OfColumn = Callable[[MeasuredRun, str], Series]  # an angle of a column [rad]
 
 
 def rearward_angle(run: MeasuredRun, column: str) -> Series:
@@ -211,6 +219,33 @@ class Watched:
     def departure(self, run: MeasuredRun, ideal: MeasuredRun, channel: str) -> Series:
         """A channel less that of the ideal pin, record by record over the rise."""
         return run[channel][self.in_rise(run)] - ideal[channel][self.in_rise(ideal)]
+
+    # --- measures, for tables of them; scale: to the unit of the number ---
+
+    def mean_of(self, channel: str, scale: float = 1.0) -> Measure:
+        """The measure of a channel's mean over the motion."""
+        return lambda run: scale * self.mean(run, channel)
+
+    def spread_of(self, channel: str, scale: float = 1.0) -> Measure:
+        """The measure of a channel's standard deviation over the motion."""
+        return lambda run: scale * self.spread(run, channel)
+
+    def fluctuation_of(self, channel: str, scale: float = 1.0, *times: float) -> Measure:
+        """The measure of a channel's fluctuation; times: from when to when [s], see `rms_fluctuation`."""
+        return lambda run: scale * self.rms_fluctuation(run, run[channel], *times)
+
+    def extent_of(self, channel: str, scale: float = 1.0) -> Measure:
+        """The measure of the distance of a channel's largest from its smallest record in the motion."""
+        return lambda run: scale * float(np.ptp(run[channel][self.in_rise(run)]))
+
+    def shift_of(self, channel: str, scale: float = 1.0, power: float = 1.0) -> Versus:
+        """The measure of a channel's mean distance from that of the ideal pin; power 2: root mean square."""
+
+        def get(run: MeasuredRun, ideal: MeasuredRun) -> float:
+            values = self.departure(run, ideal, channel) ** power
+            return float(scale * mean(run.time[self.in_rise(run)], values) ** (1.0 / power))
+
+        return Versus(get)
 
 
 PAPER = Watched("rear_base", "rear_link", 3.0, 5.0)  # the paper's pin and rise

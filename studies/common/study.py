@@ -61,7 +61,8 @@ class Study:
 
     name: of its folder. asks: the docstring of its module, whose first line is its question. work: computes all
     that it leaves. seconds: that it takes on two cores, once all is compiled. own_machine: whether it can be
-    about the user's machine.
+    about the user's machine. sentences: their template
+    below `studies`; empty: words.md.j2 in its folder.
     """
 
     name: str
@@ -69,6 +70,12 @@ class Study:
     work: Callable[[Options], StudyOutcome]
     seconds: float = 60.0
     own_machine: bool = False
+    sentences: str = ""
+
+    @property
+    def template(self) -> str:
+        """The template of its sentences, below `studies`."""
+        return self.sentences or f"{self.name}/words.md.j2"
 
     @property
     def question(self) -> str:
@@ -91,7 +98,9 @@ class Study:
         save_figures(chosen, found.figures, found.live)
         words = {"subject": chosen.subject, "runs": found.runs, **found.words}
         tables[NUMBERS] = text_table(*number_rows(numbers), left=3)
-        chapter, sheets = Words(self.name).chapter(words, tables, found.figures, found.tiles, found.claims)
+        chapter, sheets = Words(self.name, self.template).chapter(
+            words, tables, found.figures, found.tiles, found.claims
+        )
         if found.witness is not None:
             chapter, sheets = witness.told(chapter, sheets, numbers)
         for name, sheet in sheets.items():

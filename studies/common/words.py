@@ -28,7 +28,6 @@ from support_exudyn.files.whole_file import contents, whole_file
 from support_exudyn.postprocessing.page.pieces import Sheet
 from user_forces.values.value import InputError
 
-TEMPLATE = "words.md.j2"
 ALL_NUMBERS = "All numbers of the study; the number behind ± is the numerical error"
 
 
@@ -41,14 +40,15 @@ def text_table(
 
 @dataclass(frozen=True)
 class Words:
-    """The sentences of a study, or of the report around them, by the name of the folder."""
+    """The sentences of a study, or of the report around them; template: below `studies`."""
 
     study: str
+    template: str
 
     @cached_property
     def templates(self) -> Environment:
-        """The templates in the folder of the study, and `phrases.md.j2` of `studies.common`."""
-        loaders = [PackageLoader(f"studies.{self.study}", ""), PackageLoader("studies.common", "")]
+        """All templates below `studies`, and `phrases.md.j2` of `studies.common` by its bare name."""
+        loaders = [PackageLoader("studies", ""), PackageLoader("studies.common", "")]
         surroundings = Environment(
             loader=ChoiceLoader(loaders),
             autoescape=False,  # what shows a chapter escapes it
@@ -67,7 +67,7 @@ class Words:
         found: dict[str, list[str]] = {}
         here: list[str] = []
         begins = True
-        for line in self.templates.get_template(TEMPLATE).render(told).splitlines():
+        for line in self.templates.get_template(self.template).render(told).splitlines():
             text = " ".join(line.split())
             if line.startswith("#"):
                 here = found.setdefault(text.lstrip("# "), [])

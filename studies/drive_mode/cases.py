@@ -1,16 +1,29 @@
-"""Runs of the drive modes: both modes, both pins, all kinds of actuators."""
+"""Runs of the drive modes, and what is measured of them: both modes, both pins, all kinds of actuators.
 
-from collections.abc import Mapping
+What assumptions on oil and contact do to the peak of the sudden inlet is a band beside the numerical error: the
+start of mode 1 on columns of oil, as assumed and with the stiffest and the softest oil, by each contact of the
+pin. The machine starts at rest, its journal on the bore: after a fall into the bore the phase of its last
+bounces would decide about a tenth of the peak. It ends when the first swings are over.
+"""
+
+import math
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
+from typing import Literal
 
-from studies.common import paper_machine
-from studies.common.paper_machine import CLEARANCE_MM
+import numpy as np
+
+from studies.common import paper_machine, rise
+from studies.common.numbers import Measures
+from studies.common.paper_machine import CLEARANCE_MM, CONTACT_TITLES, CYLINDERS, PAPER
+from studies.common.rise import DEGREES, Crest
 from studies.common.subject import Subject
-from support_exudyn import CubicStep, Scenario, UniformSpeed
+from support_exudyn import CubicStep, Line, Result, Scenario, UniformSpeed
 from support_exudyn.mechanics.channels import ALL_CHANNELS
 from support_exudyn.model.drives.coupled_drive import CoupledDrive
 from support_exudyn.model.drives.drive import Stroke
+from support_exudyn.simulation.impulses import impulses_of
 from user_forces.values.value import InputError
 
 MODES: dict[str, type[Stroke]] = {"mode 1": UniformSpeed, "mode 2": CubicStep}
@@ -19,6 +32,23 @@ COLUMNS = ("rigid", "oil", "cylinder")
 AFTER = 0.05  # of the motion's time that is looked at after it: a sudden stop is part of it
 END = 5.4  # on cylinders, so that what rings after the valve has closed is seen [s]
 PERIOD = 1e-3  # between records: oil swings at 40 Hz, and records twice as far apart miss 2 % of a peak [s]
+
+START, STOP = "largest_pin_force_in_motion", "largest_pin_force_after_stop"  # from the stop to the run's end
+EXTREMES: tuple[Literal["largest", "max", "min"], ...] = ("largest", "max", "min")
+USUAL, SOFTEST, STIFFEST = "oil as assumed", "softest oil", "stiffest oil"
+OIL = {  # bulk modulus [Pa], four published shields give 1.96 GPa; and hoses of a pair of columns
+    USUAL: (paper_machine.BULK_MODULUS, paper_machine.HOSES),
+    SOFTEST: (1.5e9, Line(volume=20e-3, nominal_flow=200e-3 / 60.0, nominal_drop=2e6)),
+    STIFFEST: (2.2e9, Line(volume=5e-3, nominal_flow=200e-3 / 60.0, nominal_drop=5e5)),
+}
+INLET, SWINGS = 0.05, 0.4  # when mode 1 starts in these runs, and how long they last after it [s]
+PEAK = "peak_at_start"
+START_PINS = {PINS[0]: PINS[0]} | {one: f"{PINS[1]}, {CONTACT_TITLES[one]}" for one in (PAPER, CYLINDERS)}
+
+
+def start_name(pin: str, oil: str) -> str:
+    """The name of a start of mode 1."""
+    return f"start of mode 1, {pin}, {oil}"
 
 
 def case_name(mode: str, pin: str, columns: str) -> str:
@@ -110,3 +140,133 @@ class ModePlan:
             return base
         rigid = {name: one for name, one in base.actuators.items() if name not in self.actuators}
         return replace(base, actuators=rigid)
+
+    @cached_property
+    def starts(self) -> dict[str, Scenario]:
+        """The starts of mode 1 by pin and oil; of the paper's machine only."""
+        if not self.subject.is_paper:
+            return {}
+        return {start_name(pin, oil): self._start(pin, oil) for pin in START_PINS for oil in OIL}
+
+    def _start(self, pin: str, oil: str) -> Scenario:
+        ideal = pin == PINS[0]
+        base = self.scenarios[case_name("mode 1", PINS[0] if ideal else PINS[1], "oil")]
+        own = base.drive
+        assert isinstance(own, UniformSpeed)
+        drive = replace(own, start=INLET, end=INLET + own.end - own.start)
+        modulus, hoses = OIL[oil]
+        columns = {
+            name: replace(column, bulk_modulus=modulus, line=hoses)
+            for name, column in paper_machine.oil_columns().items()
+        }
+        joint = partial(paper_machine.clearance_joint, CLEARANCE_MM, law=paper_machine.PAPERS_LAW)
+        pins = base.pins if ideal else {paper_machine.CLEARANCE_PIN: joint(self.subject.friction, contact=pin)}
+        return replace(
+            base,
+            drive=drive,
+            duration=INLET + SWINGS,
+            start="settled",
+            actuators=columns,
+            pins=pins,
+            channels=(rise.FORCE,),
+        )
+
+    # --- measures ---
+
+    @cached_property
+    def _of_motion(self) -> dict[str, tuple[str, rise.Measure]]:
+        watched = self.subject.watched
+        force, begin = watched.force, watched.start  # from the very start on, which is where mode 1 strikes
+        return {
+            "mean_pin_force": ("N", watched.mean_of(force)),
+            "std_pin_force": ("N", watched.spread_of(force)),
+            "rms_pin_force": ("N", watched.fluctuation_of(force, 1.0, begin)),
+            START: ("N", watched.peak(force)),
+            STOP: ("N", Crest(force, begin=watched.end, end=math.inf)),
+            "largest_angular_acceleration": ("deg/s^2", watched.peak(watched.acceleration, DEGREES)),
+            "std_angular_acceleration": ("deg/s^2", watched.spread_of(watched.acceleration, DEGREES)),
+            "rms_angular_velocity": ("deg/s", watched.fluctuation_of(watched.speed, DEGREES, begin)),
+            # of what actuators carry: largest is of the magnitude; a push is positive, a pull negative
+            **{
+                f"{extreme}_{name}_force": ("N", replace(watched.peak(f"{name}.force"), extreme=extreme))
+                for name in self.actuators
+                for extreme in EXTREMES
+            },
+        }
+
+    def measures(self, result: Result) -> Measures:
+        """Unit and measure of every number of a case that has a limit, by name.
+
+        Where there is an impulse, it stands in place of what squares or extremes make endless.
+        """
+        if result.scenario.duration == INLET + SWINGS:
+            return {PEAK: ("kN", Crest(rise.FORCE, 1e-3, INLET, INLET + SWINGS))}
+        found = dict(self._of_motion)
+        endless = {name: [f"{one}_{name}_force" for one in EXTREMES] for name in self.actuators}
+        endless["pin"] = [START, STOP, "std_pin_force", "rms_pin_force"]
+
+        def impulse(channel: str, place: int, run: Result) -> float:
+            return impulses_of(run, channel, 0.0, math.inf)[place]
+
+        for place, end in enumerate(("start", "end")):
+            for what in endless:  # that of the pin is a magnitude
+                channel = self.subject.watched.force if what == "pin" else f"{what}.force"
+                if len(impulses_of(result, channel, 0.0, math.inf)) == 2:
+                    found[f"impulse_{what}_{end}"] = ("N s", partial(impulse, channel, place))
+        for what, names in endless.items():
+            if f"impulse_{what}_start" in found:
+                found = {name: about for name, about in found.items() if name not in names}
+        if result.impulses:
+            del found["largest_angular_acceleration"], found["std_angular_acceleration"]
+        return found | (ON_CYLINDERS if result.scenario.valved else {})
+
+
+# --- on hydraulic cylinders ---
+
+LATE = 5.2  # from here on it is taken as settled in the mean [s]
+MIDDLE = (3.6, 4.4)  # of the rise, ramps of mode 2 excluded [s]
+
+
+def extension(result: Result, column: str) -> rise.Series:
+    """The extension of a column since the start (n,) [m]."""
+    length = result[f"{column}.length"]
+    return np.asarray(length - length[0])
+
+
+def speed(column: str, begin: float, end: float, result: Result) -> float:
+    """The mean speed of a column's extension between two times [s], in mm/s."""
+    moved = np.interp([begin, end], result.time, extension(result, column))
+    return float(1e3 * (moved[1] - moved[0]) / (end - begin))
+
+
+def extension_at(column: str, time: float, result: Result) -> float:
+    """The extension of a column at a time [s], in mm."""
+    return float(1e3 * np.interp(time, result.time, extension(result, column)))
+
+
+def _of_column(column: str) -> dict[str, tuple[str, rise.Measure]]:
+    side, pressure = column.partition("_")[0], f"{column}.pressure"
+    whole = partial(Crest, pressure, 1e-6, end=math.inf)
+
+    def late(quantity: Callable[[Result], rise.Series]) -> rise.Measure:
+        return lambda run: rise.mean(run.time[run.time >= LATE - 1e-9], quantity(run)[run.time >= LATE - 1e-9])
+
+    settled = late(lambda run: 1e3 * extension(run, column))
+    return {
+        f"speed_in_mid_rise_{side}": ("mm/s", partial(speed, column, *MIDDLE)),
+        f"extension_at_5s_{side}": ("mm", partial(extension_at, column, rise.END)),
+        f"settled_extension_{side}": ("mm", settled),
+        f"overshoot_{side}": ("mm", lambda run: float(1e3 * extension(run, column).max()) - settled(run)),
+        f"largest_pressure_{side}": ("MPa", whole(extreme="max")),
+        f"least_pressure_{side}": ("MPa", whole(extreme="min")),
+        f"pressure_after_{side}": ("MPa", late(lambda run: 1e-6 * run[pressure])),
+        f"largest_flow_{side}": ("l/min", Crest(f"{column}.flow", 6e4, begin=0.0, end=math.inf)),
+    }
+
+
+ON_CYLINDERS: dict[str, tuple[str, rise.Measure]] = {
+    **_of_column("front_column"),
+    **_of_column("rear_column"),
+    "loss_in_valves": ("kJ", lambda run: float(1e-3 * run["energy.damping_loss"][-1])),
+    "work_of_pumps": ("kJ", lambda run: float(1e-3 * run["energy.work"][-1])),
+}

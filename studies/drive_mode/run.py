@@ -5,60 +5,162 @@ on rigid columns, which pass a jump of speed on as an impulse, on columns of oil
 limit, and on hydraulic cylinders, which no displacement drives but the oil that a valve lets in.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 
+import numpy as np
+from matplotlib.figure import Figure
+
+from studies.common import rise
 from studies.common.numbers import Found, Number, against, by_case, cell, measured_all
 from studies.common.options import Options
-from studies.common.study import Study, StudyOutcome
+from studies.common.panels import finish, grid, heading
+from studies.common.study import LivePanels, Study, StudyOutcome
 from studies.common.witness import Witness, run_on_exudyn, with_errors
 from studies.common.words import text_table
-from studies.drive_mode import assumed, cases
-from studies.drive_mode.cases import MODES, PINS, ModePlan, case_name
-from studies.drive_mode.figures import LIVE, figures
-from studies.drive_mode.measures import START, STOP, measures_of
-from support_exudyn import Result
+from studies.drive_mode import cases
+from studies.drive_mode.cases import (
+    END,
+    MODES,
+    OIL,
+    PEAK,
+    PINS,
+    SOFTEST,
+    START,
+    START_PINS,
+    STIFFEST,
+    STOP,
+    USUAL,
+    ModePlan,
+    case_name,
+    extension,
+    start_name,
+)
+from support_exudyn import Result, SuddenOpening
+from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.page.pieces import Sheet
 
 SAVED = (START, STOP, "std_pin_force", "rms_pin_force", "largest_angular_acceleration")
 IMPULSE = "an impulse"
 VELOCITY = "rms_angular_velocity"
 CONVERGED = 0.01  # error of a number that has a limit, as a share of it
+# panels to look into, by figure
+PIN_FORCES = {6: "pin force, mode 1 [kN]", 7: "pin force, mode 2 [kN]"}
+LIVE: dict[str, LivePanels] = {
+    "fig13_rigid_columns": PIN_FORCES, "fig13_oil_columns": PIN_FORCES,
+    "cylinders": {2: "speed, front, mode 1 [mm/s]", 4: "pressure, rear, mode 1 [MPa]", **PIN_FORCES},
+}  # fmt: skip
 
 
 # --- tables ---
 
 
-def key_table(found: Found, plan: ModePlan) -> Sheet:
-    """The largest pin force in both modes, in the motion and after its end, by actuators and pin."""
-    watched, rows = plan.subject.watched, []
+def tables(plan: ModePlan, numbers: Sequence[Number]) -> dict[str, Sheet]:
+    """The largest pin force by actuators and pin; what the gentle drive saves; the band of the oil."""
+    found, watched = by_case(numbers), plan.subject.watched
+    kinds = [(columns, pin) for columns in plan.columns for pin in plan.pins]
+
+    def both(name: str, columns: str, pin: str) -> list[Number | None]:
+        return [found.get((name, case_name(mode, pin, columns))) for mode in MODES]
+
+    def saved(name: str, columns: str, pin: str) -> str:
+        sudden, gentle = both(name, columns, pin)
+        return IMPULSE if sudden is None or gentle is None else against(gentle, sudden)
+
     windows = {START: f"{watched.start:g} to {watched.end:g} s", STOP: f"after {watched.end:g} s"}
-    for columns in plan.columns:
-        for pin in plan.pins:
-            numbers = [found.get((name, case_name(mode, pin, columns))) for mode in MODES for name in windows]
-            rows.append((columns, pin, *(cell(one, 1e-3) or IMPULSE for one in numbers)))
+    peaks = [
+        (*kind, *(cell(both(name, *kind)[n], 1e-3) or IMPULSE for n in range(len(MODES)) for name in windows))
+        for kind in kinds
+    ]
     headings = (f"{mode}, {window} [kN]" for mode in MODES for window in windows.values())
-    return text_table(("actuators", "pin", *headings), rows, left=2)
-
-
-def saving_table(found: Found, plan: ModePlan) -> Sheet:
-    """What the gentle drive saves."""
-    headings = [(pin, columns) for columns in plan.columns for pin in plan.pins]
-    rows = []
-    for name in (*SAVED, *(f"largest_{actuator}_force" for actuator in plan.actuators)):
-        cells = []
-        for pin, columns in headings:
-            sudden, gentle = (found.get((name, case_name(mode, pin, columns))) for mode in MODES)
-            cells.append(IMPULSE if sudden is None or gentle is None else against(gentle, sudden))
-        rows.append((name.replace("_", " "), *cells))
-    return text_table(("quantity", *(f"{columns}, {pin}" for pin, columns in headings)), rows)
-
-
-def tables(found: Found, plan: ModePlan) -> dict[str, Sheet]:
-    """All tables, by name."""
-    sheets = {"drive_modes": key_table(found, plan), "table_saving": saving_table(found, plan)}
+    names = (*SAVED, *(f"largest_{actuator}_force" for actuator in plan.actuators))
+    savings = [(name.replace("_", " "), *(saved(name, *kind) for kind in kinds)) for name in names]
+    sheets = {
+        "drive_modes": text_table(("actuators", "pin", *headings), peaks, left=2),
+        "table_saving": text_table(("quantity", *(f"{columns}, {pin}" for columns, pin in kinds)), savings),
+    }
     if plan.subject.is_paper:
-        sheets["assumed"] = assumed.band_table(found)
+        rows = []
+        for pin, title in START_PINS.items():
+            change = "" if pin == PINS[0] else against(peak(found, pin), peak(found, PINS[0]))
+            usual, soft, stiff = (cell(peak(found, pin, oil)) for oil in (USUAL, SOFTEST, STIFFEST))
+            rows.append((title, usual, change, soft, stiff))
+        header = ("pin", "peak [kN]", "against ideal", f"{SOFTEST} [kN]", f"{STIFFEST} [kN]")
+        sheets["assumed"] = text_table(header, rows)
     return sheets
+
+
+def peak(found: Found, pin: str, oil: str = USUAL) -> Number:
+    """The peak of the sudden start, by pin and oil."""
+    return found[PEAK, start_name(pin, oil)]
+
+
+def band(found: Found, pin: str) -> str:
+    """From where to where the peak of a pin may lie, in words."""
+    peaks = [peak(found, pin, oil).value for oil in OIL]
+    return f"{min(peaks):.0f} to {max(peaks):.0f} kN"
+
+
+# --- figures: counterparts of Fig. 13 of the paper, and the rise on hydraulic cylinders ---
+
+Curve = Callable[[Result], rise.Series]  # what is drawn of a run at its records
+
+
+def figures(plan: ModePlan, results: Mapping[str, Result]) -> dict[str, Figure]:
+    """All figures, by file name."""
+    watched, first = plan.subject.watched, plan.actuators[0]
+    curves: dict[str, Curve] = {
+        "extension [mm]": lambda run: 1e3 * extension(run, first),
+        "angular velocity\n[deg/s]": lambda run: rise.DEGREES * run[watched.speed],
+        "angular acceleration\n[deg/s²]": lambda run: rise.DEGREES * run[watched.acceleration],
+        "pin force [kN]": lambda run: 1e-3 * run[watched.force],
+    }
+    found = {
+        f"fig13_{columns}_columns": by_mode(plan, results, columns, curves)
+        for columns in ("oil", "rigid")
+        if columns in plan.columns
+    }
+    if plan.subject.is_paper:
+        found["cylinders"] = by_mode(plan, results, "cylinder", ON_CYLINDERS)
+    return found
+
+
+def _behind(run: Result) -> rise.Series:
+    """How far the front columns are behind the displacement drive of the mode [mm]."""
+    sudden = isinstance(run.scenario.valved["front_column"].inlet, SuddenOpening)
+    drive = MODES["mode 1" if sudden else "mode 2"]()
+    driven = np.array([drive.extension(t) for t in run.time.tolist()])
+    return np.asarray(1e3 * (driven - extension(run, "front_column")))
+
+
+ON_CYLINDERS: dict[str, Curve] = {
+    "behind the drive\n[mm]": _behind,
+    "speed, front\n[mm/s]": lambda run: 1e3 * np.gradient(extension(run, "front_column"), run.time),
+    "pressure, rear\n[MPa]": lambda run: 1e-6 * run["rear_column.pressure"],
+    "pin force [kN]": lambda run: 1e-3 * run[rise.FORCE],
+}
+
+
+def by_mode(plan: ModePlan, results: Mapping[str, Result], columns: str, curves: Mapping[str, Curve]) -> Figure:
+    """A column of panels for each mode, a row for each quantity, with the same scale in both."""
+    drawing, panels = grid(165, len(curves), 2, sharey="row", sharex=True)
+    watched = plan.subject.watched
+    margin = 0.05 * (watched.end - watched.start)
+    end = END if columns == "cylinder" else watched.end + margin
+    looks = ((plan.pins[1], style.WITH_CLEARANCE, "-", 1.0), (plan.pins[0], style.IDEAL, (0, (4, 2)), 0.8))
+    for column, mode in zip(panels.T, MODES, strict=True):
+        for axes, (label, curve) in zip(column, curves.items(), strict=True):
+            for pin, colour, dashes, width in looks:
+                run = results[case_name(mode, pin, columns)]
+                inside = rise.between(run, watched.start - margin, end)
+                axes.plot(run.time[inside], curve(run)[inside], color=colour, ls=dashes, lw=width, label=pin)
+            axes.set(xlim=(watched.start - margin, end), xticks=np.linspace(watched.start, watched.end, 5))
+            if mode == "mode 1":
+                axes.set_ylabel(label)
+        heading(column[0], mode)
+        column[-1].set_xlabel("time [s]")
+    drawing.align_ylabels(panels[:, 0])
+    return finish(drawing, panels, 2)
 
 
 # --- the study ---
@@ -67,29 +169,22 @@ def tables(found: Found, plan: ModePlan) -> dict[str, Sheet]:
 def work(chosen: Options) -> StudyOutcome:
     """Both modes on all kinds of columns, and the start by assumptions."""
     plan = ModePlan(chosen.subject)
-    starts = assumed.scenarios(plan) if plan.subject.is_paper else {}
-    every = {**plan.scenarios, **starts}
+    every = {**plan.scenarios, **plan.starts}
 
     def numbers_of(made: Mapping[str, Result]) -> list[Number]:
-        of_modes = {name: made[name] for name in plan.scenarios}
-        of_starts = assumed.measure({name: made[name] for name in starts})
-        return [*measured_all(of_modes, lambda run: measures_of(plan, run)), *of_starts]
-
-    def sheets(numbers: Sequence[Number]) -> dict[str, Sheet]:
-        return tables(by_case(numbers), plan)
+        return measured_all(made, plan.measures)
 
     made = run_on_exudyn(every, chosen)
     results = {name: made[name] for name in plan.scenarios}
     numbers = with_errors(numbers_of(made))
-    drawings = figures(plan, results)
     return StudyOutcome(
         numbers,
         _words(plan, by_case(numbers)),
-        drawings,
-        sheets(numbers),
+        figures(plan, results),
+        tables(plan, numbers),
         results,
-        live={name: LIVE[name] for name in drawings},
-        witness=Witness(every, numbers_of, sheets),
+        live=LIVE,
+        witness=Witness(every, numbers_of, partial(tables, plan)),
     )
 
 
@@ -99,11 +194,8 @@ def _words(plan: ModePlan, found: Found) -> dict[str, object]:
     is_paper = plan.subject.is_paper
 
     def heat(mode: str) -> float:
-        work, loss = (
-            found[name, case_name(mode, ideal, "cylinder")].value
-            for name in ("work_of_pumps", "loss_in_valves")
-        )
-        return 100.0 * loss / work
+        of = case_name(mode, ideal, "cylinder")
+        return 100.0 * found["loss_in_valves", of].value / found["work_of_pumps", of].value
 
     return {
         "cases": cases,
@@ -118,7 +210,7 @@ def _words(plan: ModePlan, found: Found) -> dict[str, object]:
         "drive": plan.drive("mode 1", plan.leading[0]),
         "impulses": [name for name, case in found if name.startswith("impulse") and case == struck],
         "heat": {mode: heat(mode) for mode in MODES} if is_paper else {},
-        "assumed": assumed if is_paper else None,
+        "assumed": {"peak": peak, "band": band} if is_paper else None,
         "velocity_converges": is_paper and velocity_converges(found),
     }
 

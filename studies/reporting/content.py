@@ -74,7 +74,7 @@ def around_chapters(sections: Sequence[ReportSection]) -> AroundChapters:
     machines = tuple(dict.fromkeys(one.chapter.machine for one in sections if one.chapter.machine))
     contacts = tuple(dict.fromkeys(one.chapter.contact for one in sections if one.chapter.contact))
     of_paper = any(not one.chapter.machine for one in sections)
-    words = Words("reporting").blocks({
+    words = Words("reporting", "reporting/words.md.j2").blocks({
         "machines": machines,
         "contacts": contacts,
         "of_paper": of_paper,

@@ -9,8 +9,8 @@ import pytest
 from studies.common import paper_machine
 from studies.common.subject import own_subject, paper_subject
 from studies.common.words import Chapter
-from studies.drive_mode import assumed
-from studies.drive_mode.cases import COLUMNS, MODES, PINS, ModePlan, case_name
+from studies.drive_mode import cases as study
+from studies.drive_mode.cases import COLUMNS, MODES, OIL, PINS, START_PINS, ModePlan, case_name
 from support_exudyn import ClearancePin, OilColumn
 from support_exudyn.model.drives.coupled_drive import CoupledDrive
 from tests.studies.forms import ONLY_WHOLE, Numbers, numbers_of, results, written
@@ -100,23 +100,23 @@ def test_errors_of_peaks_are_below_one_percent(numbers: Numbers, window: str) ->
 
 def test_the_peak_has_a_band_from_assumptions_and_depends_on_the_contact(numbers: Numbers) -> None:
     def peak(pin: str, oil: str) -> float:
-        return float(numbers[assumed.NAME, assumed.run_name(pin, oil)]["value"])
+        return float(numbers[study.PEAK, study.start_name(pin, oil)]["value"])
 
-    for pin in assumed.pins():
-        usual, soft, stiff = (peak(pin, oil) for oil in (assumed.USUAL, assumed.SOFTEST, assumed.STIFFEST))
+    for pin in START_PINS:
+        usual, soft, stiff = (peak(pin, oil) for oil in OIL)
         assert soft < usual < stiff < 2.1 * soft
-    ideal, spheres, line = (peak(pin, assumed.USUAL) for pin in assumed.pins())
+    ideal, spheres, line = (peak(pin, study.USUAL) for pin in START_PINS)
     assert spheres < ideal < line
 
 
 def test_the_band_is_of_the_oil_that_it_says() -> None:
-    runs = assumed.scenarios(ModePlan(paper_subject()))
-    assert len(runs) == len(assumed.pins()) * len(assumed.OIL)
+    runs = ModePlan(paper_subject()).starts
+    assert len(runs) == len(START_PINS) * len(OIL)
     column = {run.actuators["rear_column"] for run in runs.values()}
     found = {(one.bulk_modulus, one.line) for one in column if isinstance(one, OilColumn)}
-    assert found == set(assumed.OIL.values())
+    assert found == set(OIL.values())
     oil = paper_machine.oil_columns()["rear_column"]
-    assert (oil.bulk_modulus, oil.line) == assumed.OIL[assumed.USUAL]
+    assert (oil.bulk_modulus, oil.line) == OIL[study.USUAL]
 
 
 def test_an_inlet_is_not_a_displacement(numbers: Numbers) -> None:
@@ -161,7 +161,7 @@ bore_radius_mm = 65.5
 restitution = 0.9
 friction = 0.1
 """
-OIL = """
+ON_OIL = """
 [actuators.front_column]
 type = "OilColumn"
 bore_area_mm2 = 98174.77
@@ -188,7 +188,7 @@ def test_modes_of_ones_own_machine_have_its_stroke_and_pin(tmp_path: Path) -> No
         friction = pin.contact.friction if isinstance(pin, ClearancePin) else pin.friction
         assert isinstance(pin, ClearancePin) == ("1 mm" in name)
         assert friction == Ambrosio(sliding_coefficient=0.1)  # ideal or not
-    plan = ModePlan(own_subject(own(tmp_path, OWN + OIL)))
+    plan = ModePlan(own_subject(own(tmp_path, OWN + ON_OIL)))
     assert plan.columns == ("rigid", "oil")
     assert set(plan.scenarios["mode 1, 1 mm, oil columns"].compliant_actuators) == {"front_column"}
     assert not plan.scenarios["mode 1, 1 mm, rigid columns"].compliant_actuators

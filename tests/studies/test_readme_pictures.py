@@ -6,7 +6,7 @@ import pytest
 from PIL import Image
 
 from studies import readme_pictures
-from studies.clearance_influence import run as clearance_influence
+from studies.clearance import figures
 from studies.common.paper_machine import clearance_rise
 from studies.readme_pictures import FOLDER, PICTURES, Runs, main
 from support_exudyn import simulate
@@ -35,7 +35,7 @@ def test_pictures_are_made(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
     from dataclasses import replace
 
     short = simulate(replace(clearance_rise(1.5, 0.25, 5e-4), duration=0.1))
-    monkeypatch.setattr(Runs, "paper", {clearance_influence.DRY: short})
+    monkeypatch.setattr(Runs, "paper", {figures.DRY: short})
     # in place of 3 to 5 s and of 4 s, which a short run has not
     monkeypatch.setattr(readme_pictures, "MIDDLE", 0.05)
     monkeypatch.setattr(readme_pictures, "RISE", (0.0, 0.1))

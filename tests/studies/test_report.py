@@ -15,7 +15,7 @@ from PIL import Image
 from studies import report
 from studies.catalogue import STUDIES
 from studies.common.numbers import NUMBERS
-from studies.common.words import REFERENCE, TEMPLATE, Chapter, JudgedClaim, Picture, Tile
+from studies.common.words import REFERENCE, Chapter, JudgedClaim, Picture, Tile
 from support_exudyn.postprocessing.page.live import LiveCurve, LiveFigure, LivePanel
 from support_exudyn.postprocessing.page.pieces import Sheet
 from support_exudyn.simulation.provenance import versions
@@ -157,11 +157,11 @@ def test_templates_refer_to_figures_and_tables_that_they_name(study: str) -> Non
     folder = Path(report.__file__).parent
 
     def names(of: str) -> set[str]:
-        text = (folder / of / TEMPLATE).read_text(encoding="utf-8")
+        text = (folder / STUDIES[of].template).read_text(encoding="utf-8")
         figures = re.findall(r"^- ([\w.-]+): ", text[text.index("\n## Figures") :], re.MULTILINE)
         return {NUMBERS, *figures, *re.findall(r"^### ([\w.-]+)$", text, re.MULTILINE)}
 
-    for reference in REFERENCE.findall((folder / study / TEMPLATE).read_text(encoding="utf-8")):
+    for reference in REFERENCE.findall((folder / STUDIES[study].template).read_text(encoding="utf-8")):
         of, _, name = reference.rpartition("/")
         assert name in names(of or study), reference
 

@@ -6,7 +6,7 @@ usual station gives 450 l/min, shared by all; a station without a limit makes th
 
 import itertools
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -22,6 +22,7 @@ from studies.common.runs import run_with_errors
 from studies.common.study import Study, StudyOutcome
 from studies.common.subject import paper_subject
 from studies.common.words import text_table
+from studies.drive_mode.cases import extension, extension_at, speed
 from support_exudyn import (
     CheckValve,
     Inlet,
@@ -64,13 +65,8 @@ def case_name(mode: str, pump: str, pin: str, oil: str = "boils") -> str:
 
 def scenarios() -> Mapping[str, Scenario]:
     """All cases, the longest first."""
-    return {
-        case_name(mode, pump, pin, oil): _run(mode, pump, pin, oil)
-        for pump in PUMPS
-        for pin in reversed(PINS)
-        for oil in OILS
-        for mode in MODES
-    }
+    every = itertools.product(PUMPS, reversed(PINS), OILS, MODES)
+    return {case_name(mode, pump, pin, oil): _run(mode, pump, pin, oil) for pump, pin, oil, mode in every}
 
 
 def _run(mode: str, pump: str, pin: str, oil: str) -> Scenario:
@@ -102,39 +98,25 @@ def _run(mode: str, pump: str, pin: str, oil: str) -> Scenario:
 # --- measures ---
 
 
-def extension(result: Result, row: str) -> np.ndarray:
-    """The extension of a row of columns since the start (n,) [m]."""
-    length = result[f"{row}_column.length"]
-    return np.asarray(length - length[0])
-
-
 def measures(result: Result) -> Measures:
     """Unit and measure of every number of a case, by name."""
     closes = max(result.scenario.breaks)
+    begin, end = (START + share * (closes - START) for share in MIDDLE)
     whole = partial(rise.Crest, begin=0.0, end=math.inf)
-
-    def speed(row: str, run: Result) -> float:
-        begin, end = (START + share * (closes - START) for share in MIDDLE)
-        moved = np.interp([begin, end], run.time, extension(run, row))
-        return float(1e3 * (moved[1] - moved[0]) / (end - begin))
-
-    def at_end(row: str, run: Result) -> float:
-        return float(1e3 * np.interp(closes, run.time, extension(run, row)))
-
-    found: dict[str, tuple[str, Callable[[Result], float]]] = {
+    found: dict[str, tuple[str, rise.Measure]] = {
         "largest_pin_force_at_start": ("kN", rise.Crest(rise.FORCE, 1e-3, START, START + 1.0)),
         "largest_pin_force_at_end": ("kN", rise.Crest(rise.FORCE, 1e-3, closes, math.inf)),
     }
     boils = result.scenario.legs["front_column"].vapour_pressure is not None
     for row in ROWS:
-        pressure = f"{row}_column.pressure"
+        column, pressure = f"{row}_column", f"{row}_column.pressure"
         found[f"least_pressure_{row}"] = ("MPa", whole(pressure, 1e-6, extreme="min"))
         found[f"largest_pressure_{row}"] = ("MPa", whole(pressure, 1e-6, extreme="max"))
-        found[f"least_force_{row}"] = ("kN", whole(f"{row}_column.force", 1e-3, extreme="min"))
-        found[f"speed_in_mid_rise_{row}"] = ("mm/s", partial(speed, row))
-        found[f"extension_at_end_{row}"] = ("mm", partial(at_end, row))
+        found[f"least_force_{row}"] = ("kN", whole(f"{column}.force", 1e-3, extreme="min"))
+        found[f"speed_in_mid_rise_{row}"] = ("mm/s", partial(speed, column, begin, end))
+        found[f"extension_at_end_{row}"] = ("mm", partial(extension_at, column, closes))
         if boils:
-            found[f"largest_cavity_{row}"] = ("ml", whole(f"{row}_column.cavity", 1e6, extreme="max"))
+            found[f"largest_cavity_{row}"] = ("ml", whole(f"{column}.cavity", 1e6, extreme="max"))
     if boils:
         found["time_with_cavity"] = ("ms", time_with_cavity)
     if result.scenario.pump is not None:
@@ -162,17 +144,12 @@ def time_with_cavity(result: Result) -> float:
 
 def pin_table(found: Found) -> Sheet:
     """The pin's largest force, by pump, pin, mode and oil."""
-    rows = [
-        (f"at the {when}, {pump}, {pin}", *_cells(found, f"largest_pin_force_at_{when}", pump, pin))
-        for when in ("start", "end")
-        for pump in PUMPS
-        for pin in PINS
-    ]
+    rows = []
+    for when, pump, pin in itertools.product(("start", "end"), PUMPS, PINS):
+        name = f"largest_pin_force_at_{when}"
+        cells = (cell(found[name, case_name(mode, pump, pin, oil)]) for mode, oil in COLUMNS)
+        rows.append((f"at the {when}, {pump}, {pin}", *cells))
     return text_table(("largest pin force", *(f"{mode}, oil {oil}" for mode, oil in COLUMNS)), rows)
-
-
-def _cells(found: Found, name: str, pump: str, pin: str) -> list[str]:
-    return [cell(found.get((name, case_name(mode, pump, pin, oil)))) for mode, oil in COLUMNS]
 
 
 COLOURS = dict(zip(ROWS, (style.SMOOTH, style.WITH_CLEARANCE), strict=True))
@@ -186,7 +163,9 @@ def rise_figure(results: Mapping[str, Result]) -> Figure:
     for mode, (upper, lower) in zip(MODES, panels.T, strict=True):
         run = results[case_name(mode, PUMPS[0], PINS[0])]
         for row in ROWS:
-            upper.plot(run.time, 1e3 * extension(run, row), color=COLOURS[row], label=f"{row} columns")
+            upper.plot(
+                run.time, 1e3 * extension(run, f"{row}_column"), color=COLOURS[row], label=f"{row} columns"
+            )
         lower.plot(run.time, 1e-6 * run["pump.pressure"], color=style.IDEAL, lw=0.9)
         upper.set_title(mode, fontsize=9)
         lower.set(xlabel="time [s]", xlim=(START - 0.5, LONG + 1.0))
@@ -225,12 +204,9 @@ def work(chosen: Options) -> StudyOutcome:
     results = run_with_errors(scenarios(), chosen)
     numbers = measured_all(results, measures)
     found = by_case(numbers)
-    sheets = {
-        "table_pin": pin_table(found),
-    }  # fmt: skip
     words = {"found": found, "case_name": case_name, "pumps": PUMPS, "pins": PINS}
     drawings = {"rise_by_valves": rise_figure(results), "opening": start_figure(results)}
-    return StudyOutcome(numbers, words, drawings, sheets, results)
+    return StudyOutcome(numbers, words, drawings, {"table_pin": pin_table(found)}, results)
 
 
-study = Study("valve_modes", __doc__, work, seconds=40.0)
+study = Study("valve_modes", __doc__, work, seconds=40.0, sentences="drive_mode/valves.md.j2")

@@ -1,0 +1,1 @@
+"""What do clearance in a pin and its size change?"""

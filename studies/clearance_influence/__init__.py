@@ -1,1 +1,0 @@
-"""What does a clearance change, against ideal pins?"""

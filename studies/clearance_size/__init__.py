@@ -1,1 +1,0 @@
-"""What does the size of the clearance do to the rise?"""

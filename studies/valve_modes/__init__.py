@@ -1,1 +1,0 @@
-"""What the paper's drive modes become if valves and a pump of limited flow make them."""
