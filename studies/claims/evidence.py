@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 
@@ -73,19 +73,39 @@ class Evidence:
 
 @dataclass(frozen=True)
 class NotedEvidence(Evidence):
-    """Evidence that notes what it is asked for."""
+    """Evidence that notes what it is asked for: measures by name, then by case."""
 
-    asked: list[Measured] = field(default_factory=list)
+    asked: dict[str, dict[str, Measured]] = field(default_factory=dict)
 
     def __getitem__(self, place: tuple[str, str]) -> Measured:
-        found = super().__getitem__(place)
-        self.asked.append(found)
+        case, name = place
+        found = self.asked.setdefault(name, {})[case] = super().__getitem__(place)
         return found
+
+    def said(self, of_all: Sequence[str]) -> str:
+        """What was asked for, in words; cases are named unless they are those of `of_all`."""
+        texts = []
+        for name, row in self.asked.items():
+            named = (f"{case} {m.said(6)}" for case, m in row.items())
+            values = ", ".join(m.said(6) for m in row.values()) if [*row] == [*of_all] else "; ".join(named)
+            texts.append(f"{name.replace('_', ' ')}: {values} {unit(name)}".rstrip())
+        return " | ".join(texts)
 
     @property
     def largest_error(self) -> float | None:
         """Largest numerical error of what was asked for, as a share of its value; None if nothing was."""
-        return max((m.error / abs(m.value) if m.value else math.inf for m in self.asked), default=None)
+        every_one = [m for row in self.asked.values() for m in row.values()]
+        return max((m.error / abs(m.value) if m.value else math.inf for m in every_one), default=None)
+
+
+UNITS = {"force": "N", "speed": "deg/s", "acceleration": "deg/s^2", "impulse": "N s", "tip": "mm"}
+
+
+def unit(name: str) -> str:
+    """The unit of a measure, by its name; empty for a correlation."""
+    if name.startswith("likeness"):
+        return ""
+    return next((unit for word, unit in UNITS.items() if word in name.split("_")), "deg")
 
 
 def every(verdicts: Iterable[Verdict]) -> Verdict:

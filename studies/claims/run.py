@@ -8,6 +8,7 @@ times.
 from collections.abc import Sequence
 
 from studies.claims.claim_list import CLAIMS
+from studies.claims.evidence import unit
 from studies.claims.figures import figures
 from studies.claims.plausible import CONTACT, FACTORS, LOT, REFERENCE, Sample, samples
 from studies.claims.plausible_runs import CASES, TOLERANCE, MachineRow, evidence, run_machines
@@ -181,8 +182,6 @@ def tables(rulings: Sequence[Ruling], rows: Sequence[MachineRow]) -> dict[str, S
 
 # --- numbers and words ---
 
-UNITS = {"force": "N", "speed": "deg/s", "acceleration": "deg/s^2", "impulse": "N s", "tip": "mm"}
-
 
 def measure(rulings: Sequence[Ruling], rows: Sequence[MachineRow]) -> list[Number]:
     """Verdicts, shares with their uncertainty, and the reference support's measures with numerical errors."""
@@ -207,14 +206,8 @@ def measure(rulings: Sequence[Ruling], rows: Sequence[MachineRow]) -> list[Numbe
                 error = max(high - counted.share, counted.share - low)
                 numbers.append(Number(name, f"claim {n}", counted.share, "1", error))
     for case, row in evidence(rows[0].measures or {}).measures.items():
-        numbers += [Number(name, case, m.value, _unit(name), m.error) for name, m in row.items()]
+        numbers += [Number(name, case, m.value, unit(name) or "1", m.error) for name, m in row.items()]
     return numbers
-
-
-def _unit(name: str) -> str:
-    if name.startswith("likeness"):
-        return "1"
-    return next((unit for word, unit in UNITS.items() if word in name.split("_")), "deg")
 
 
 def judged_claims(rulings: Sequence[Ruling]) -> tuple[JudgedClaim, ...]:
@@ -222,7 +215,7 @@ def judged_claims(rulings: Sequence[Ruling]) -> tuple[JudgedClaim, ...]:
     numbers = {ruling.claim.name: n for n, ruling in enumerate(rulings, 1)}
     return tuple(
         JudgedClaim(
-            str(n), r.claim.where, r.claim.text, r.kind, _why(r, numbers), r.claim.figure, r.claim.table
+            str(n), r.claim.where, r.claim.text, r.kind, _why(r, numbers), r.claim.figure, r.claim.shown_in
         )
         for n, r in enumerate(rulings, 1)
     )

@@ -11,9 +11,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from studies.claims.claim_list import Claim, Judge, Varied
+from studies.claims.claim_list import Claim, Judge, Stiffness, Varied
 from studies.claims.evidence import Evidence, NotedEvidence, Verdict
 from studies.claims.plausible import FACTORS, Factor, Sample
+from studies.claims.plausible_runs import CLEARANCES
 
 HOLDS, IN_PART, FAILS, NEEDS_MORE, NOT_MEASURABLE = KINDS = (
     "holds", "in part", "fails", "needs more machines", "not measurable",
@@ -142,24 +143,22 @@ def rule(claim: Claim, reference: Evidence, first: Machines, second: Machines = 
     judge = claim.judge
     if judge is None:
         return Ruling(claim)
+    if isinstance(judge, Stiffness):
+        return Ruling(claim, judge(reference), ours=str(judge))
     noted = NotedEvidence(reference.measures)
-    ours = claim.tell(noted)
-    if claim.closed_form:
-        return Ruling(claim, judge(reference), ours=ours)
+    ours = judge(noted)
     counted = count(judge, first)
+    decided = [(sample, verdict) for sample, e in first if (verdict := judge(e)) is not None]
+    shown = judge.shown if isinstance(judge, Varied) else ()
     return Ruling(
         claim,
-        judge(reference),
+        ours,
         counted,
         count(judge, second),
-        ours,
+        noted.said(CLEARANCES),
         noted.largest_error,
-        tuple(AtThreshold(at, count(judge.at(at), first)) for at in judge.shown)
-        if isinstance(judge, Varied)
-        else (),
-        dependence([(s, v) for s, e in first if (v := judge(e)) is not None])
-        if counted.kind == IN_PART
-        else "",
+        tuple(AtThreshold(at, count(judge.at(at), first)) for at in shown if isinstance(judge, Varied)),
+        dependence(decided) if counted.kind == IN_PART else "",
     )
 
 

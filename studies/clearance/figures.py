@@ -45,7 +45,7 @@ LIVE: dict[str, LivePanels] = {  # which panels are time series that readers can
 }
 
 
-class Look(NamedTuple):
+class CurveLook(NamedTuple):
     """How the curve of a case is drawn."""
 
     case: str
@@ -56,18 +56,18 @@ class Look(NamedTuple):
 
 
 INFLUENCE = (  # the largest fluctuation undermost
-    Look(DRY, style.WITH_CLEARANCE, "-", f"{CLEARANCE_MM} mm, friction {FRICTION}"),
-    Look(SMOOTH, style.SMOOTH, "-", f"{CLEARANCE_MM} mm, no friction", 1.2),
-    Look(IDEAL_DRY, style.IDEAL, DOTTED, f"ideal pin, friction {FRICTION}", 1.0),
-    Look(IDEAL, style.IDEAL, DASHED, "ideal pin, no friction", 1.0),
+    CurveLook(DRY, style.WITH_CLEARANCE, "-", f"{CLEARANCE_MM} mm, friction {FRICTION}"),
+    CurveLook(SMOOTH, style.SMOOTH, "-", f"{CLEARANCE_MM} mm, no friction", 1.2),
+    CurveLook(IDEAL_DRY, style.IDEAL, DOTTED, f"ideal pin, friction {FRICTION}", 1.0),
+    CurveLook(IDEAL, style.IDEAL, DASHED, "ideal pin, no friction", 1.0),
 )
 
 
-def _sizes(subject: Subject) -> list[Look]:
+def _sizes(subject: Subject) -> list[CurveLook]:
     """The largest clearance undermost."""
     mu = subject.friction
-    loose = [Look(case_name(n, mu), COLOURS[n], DASHES[n], f"{n:.1f} mm") for n in reversed(SIZES_MM)]
-    return [*loose, Look(ideal_name(mu), style.IDEAL, DASHED, "ideal pin")]
+    loose = [CurveLook(case_name(n, mu), COLOURS[n], DASHES[n], f"{n:.1f} mm") for n in reversed(SIZES_MM)]
+    return [*loose, CurveLook(ideal_name(mu), style.IDEAL, DASHED, "ideal pin")]
 
 
 def _of(channel: str, scale: float) -> Curve:
@@ -77,7 +77,7 @@ def _of(channel: str, scale: float) -> Curve:
 def _draw(
     axes: Axes,
     results: Results,
-    looks: Sequence[Look],
+    looks: Sequence[CurveLook],
     curve: Curve,
     span: tuple[float, float],
     watched: rise.Watched = rise.PAPER,
@@ -142,7 +142,7 @@ def _mark_peak(axes: Axes, run: Result, channel: str, scale: float, label: str) 
 
 
 def window_figure(
-    results: Results, looks: Sequence[Look], watched: rise.Watched, whole: tuple[float, float]
+    results: Results, looks: Sequence[CurveLook], watched: rise.Watched, whole: tuple[float, float]
 ) -> Figure:
     """The angular velocity, and three windows of the motion enlarged."""
     drawing, panels = grid(115, 2, 2)
@@ -206,10 +206,10 @@ def panel_figure(subject: Subject, results: Results, channel: str, scale: float,
     edge = 1e-3 * (watched.end - watched.start)  # the jumps at both ends would set the scale
     for axes, size in zip(panels.flat, reversed(SIZES_MM), strict=True):
         looks = (
-            Look(case_name(size, mu), style.WITH_CLEARANCE, "-", f"friction {mu:g}", 0.8),
-            Look(case_name(size, 0.0), style.SMOOTH, "-", "no friction", 0.8),
-            Look(ideal_name(mu), style.IDEAL, DOTTED, f"ideal, friction {mu:g}", 0.8),
-            Look(ideal_name(0.0), style.IDEAL, DASHED, "ideal, no friction", 0.8),
+            CurveLook(case_name(size, mu), style.WITH_CLEARANCE, "-", f"friction {mu:g}", 0.8),
+            CurveLook(case_name(size, 0.0), style.SMOOTH, "-", "no friction", 0.8),
+            CurveLook(ideal_name(mu), style.IDEAL, DOTTED, f"ideal, friction {mu:g}", 0.8),
+            CurveLook(ideal_name(0.0), style.IDEAL, DASHED, "ideal, no friction", 0.8),
         )
         _draw(axes, results, looks, _of(channel, scale), (watched.start + edge, watched.end - edge), watched)
         axes.set(xlim=(watched.start, watched.end), ylabel=label)

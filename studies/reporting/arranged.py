@@ -10,8 +10,9 @@ import os
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
+from typing import NamedTuple
 from urllib.parse import quote
 
 from jinja2 import PackageLoader
@@ -61,15 +62,16 @@ def pages(
     Raises OSError if a picture cannot be read.
     """
     arranged = Arrangement(out, sections)
-    around = around_chapters(sections)
+    words = {"around": around_chapters(sections), "waited": waited, "others": others or {}}
     made = templates(PackageLoader("studies.reporting"))
-    given = {"around": around, "arranged": arranged, "waited": waited, "others": others or {}}
-    return {
-        file: made.get_template(f"{file}.j2").render(
-            **given, table_of=ShownTable, scripts=Markup(arranged.live[file].scripts)
-        )
-        for file in (PAGE, APPENDIX)
-    }
+    found = {}
+    for file in (PAGE, APPENDIX):
+        made.filters["linked"] = partial(arranged.places.linked, file)
+        made.filters["link"] = partial(arranged.places.link, file)
+        scripts = Markup(arranged.live[file].scripts)
+        of_page = made.get_template(f"{file}.j2")
+        found[file] = of_page.render(words, arranged=arranged, table_of=ShownTable, scripts=scripts)
+    return found
 
 
 # --- places ---
@@ -97,8 +99,8 @@ class Places:
         page = "" if place == file else place
         return Markup('<a href="{}#{}">{}</a>').format(page, anchor(name), label.replace(" ", "\u00a0"))
 
-    def linked(self, file: str, study: str, text: str) -> Markup:
-        """A sentence of a study, with links in place of its references."""
+    def linked(self, file: str, text: str, study: str) -> Markup:
+        """A sentence of a study on a page, with links in place of its references."""
         parts = REFERENCE.split(text)  # every second one is a reference
         return Markup().join(
             self.link(file, part if "/" in part else f"{study}/{part}") if n % 2 else part
@@ -114,29 +116,10 @@ def anchor(name: str) -> str:
 # --- what stands where ---
 
 
-@dataclass(frozen=True)
-class ShownClaim:
-    """A claim with its verdict as class, symbol and word, and links to its evidence."""
+class ShownStudy(NamedTuple):
+    """A chapter on one of the pages, with its figures, tables and links there."""
 
-    claim: JudgedClaim
-    why: Markup
-    css: str
-    symbol: str
-    word: str
-    shown_in: tuple[Markup, ...]
-
-
-@dataclass(frozen=True)
-class ShownStudy:
-    """A study on one of the pages: its texts with links, its figures and tables there."""
-
-    name: str
-    title: str
-    question: str
-    answer: Markup
-    numbers: tuple[Markup, ...]
-    method: tuple[Markup, ...]
-    findings: tuple[Markup, ...]
+    chapter: Chapter
     figures: tuple[ShownFigure, ...]
     tables: tuple[ShownTable, ...]
     links: tuple[FileLink, ...] = ()
@@ -192,90 +175,73 @@ class Arrangement:
         return [KeyNumber(one.name, one.with_clearance, one.ideal, one.change) for one in tiles]
 
     @property
-    def computed_by(self) -> str:
-        """Engine and method of the leading study."""
-        return self.leading.computed_by if self.leading is not None else ""
+    def sentences(self) -> list[tuple[str, str]]:
+        """The effect of clearance, from the leading study; how sure that is, from the claims; or others.
 
-    @property
-    def sentences(self) -> list[Markup]:
-        """The effect of clearance, from the leading study; how sure that is, from the claims; or others."""
+        Each with its study.
+        """
         answers = {
             one.chapter.study: END_OF_SENTENCE.split(one.chapter.answer)
             for one in self.sections
             if one.chapter.answer
         }
         leading = self.leading.study if self.leading is not None else ""
-        ahead = [(leading, text) for text in answers.get(leading, ())[: SENTENCES - 1]]
-        others = [(name, texts[0]) for name, texts in answers.items() if name != leading]
-        others.sort(key=lambda one: not self.by_name[one[0]].chapter.claims)
-        return [self.places.linked(PAGE, *one) for one in (ahead + others)[:SENTENCES]]
+        ahead = [(text, leading) for text in answers.get(leading, ())[: SENTENCES - 1]]
+        others = [(texts[0], name) for name, texts in answers.items() if name != leading]
+        others.sort(key=lambda one: not self.by_name[one[1]].chapter.claims)
+        return (ahead + others)[:SENTENCES]
 
     @cached_property
-    def claims(self) -> list[ShownClaim]:
-        """All claims of the paper that were judged."""
-        chapters = (one.chapter for one in self.sections)
-        return [self._claim(chapter.study, claim) for chapter in chapters for claim in chapter.claims]
+    def claims(self) -> list[tuple[JudgedClaim, str]]:
+        """All claims of the paper that were judged, with their study."""
+        return [(claim, one.chapter.study) for one in self.sections for claim in one.chapter.claims]
 
     @property
     def counts(self) -> list[tuple[str, str, str, int]]:
         """Class, symbol and word of each kind of verdict, and how many claims have it."""
-        kinds = [one.css for one in self.claims]
-        return [(*kind, kinds.count(kind[0])) for kind in VERDICTS.values() if kind[0] in kinds]
+        kinds = [self.kind(claim) for claim, _ in self.claims]
+        return [(*kind, kinds.count(kind)) for kind in VERDICTS.values() if kind in kinds]
 
-    def _claim(self, study: str, claim: JudgedClaim) -> ShownClaim:
+    def kind(self, claim: JudgedClaim) -> tuple[str, str, str]:
+        """Class, symbol and word of a claim's verdict."""
         beginnings = [start for start in VERDICTS if claim.verdict.lower().startswith(start)]
-        css, symbol, word = VERDICTS[max(beginnings, key=len)] if beginnings else ("", "", claim.verdict)
-        evidence = (name for name in (claim.figure, claim.table) if name in self.places.known)
-        shown_in = tuple(self.places.link(PAGE, name) for name in evidence)
-        return ShownClaim(claim, self.places.linked(PAGE, study, claim.why), css, symbol, word, shown_in)
+        return VERDICTS[max(beginnings, key=len)] if beginnings else ("", "", claim.verdict)
 
     # --- studies ---
 
-    @cached_property
-    def studies(self) -> list[ShownStudy]:
-        """The studies on the page: their key figure and key table."""
-        return [
-            replace(
-                self._study(
-                    PAGE, one, self._key_figure(one.chapter), _names(one.chapter, one.chapter.sheets[:1])
-                ),
-                links=self._more(one),
-            )
-            for one in self.sections
-        ]
-
-    @cached_property
-    def rest(self) -> list[ShownStudy]:
-        """All studies in the appendix: figures and tables that the page has not, or has in part."""
-        known, found = self.places.known, []
+    @property
+    def studies(self) -> Iterator[ShownStudy]:
+        """The studies on the page: their key figure, their key table, and links to the rest."""
         for one in self.sections:
-            pictures, sheets = (
-                _names(one.chapter, parts) for parts in (one.chapter.pictures, one.chapter.sheets)
-            )
-            figures = [name for name in pictures if known[name][0] == APPENDIX]
-            long = dict(zip(sheets, (len(sheet.rows) > MOST_ROWS for sheet in one.chapter.sheets), strict=True))
-            tables = [name for name in sheets if known[name][0] == APPENDIX or long[name]]
-            found.append(self._study(APPENDIX, one, figures, tables))
-        return found
+            figures, tables = self._key_figure(one.chapter), _names(one.chapter, one.chapter.sheets[:1])
+            yield self._study(PAGE, one, figures, tables, self._more(one))
+
+    @property
+    def rest(self) -> Iterator[ShownStudy]:
+        """All studies in the appendix: figures and tables that the page has not, or has in part."""
+        for one in self.sections:
+            chapter, known = one.chapter, self.places.known
+            figures = [name for name in _names(chapter, chapter.pictures) if known[name][0] == APPENDIX]
+            tables = [
+                name
+                for name, sheet in zip(_names(chapter, chapter.sheets), chapter.sheets, strict=True)
+                if known[name][0] == APPENDIX or len(sheet.rows) > MOST_ROWS
+            ]
+            yield self._study(APPENDIX, one, figures, tables)
 
     def _study(
-        self, file: str, section: ReportSection, figures: Sequence[str], tables: Sequence[str]
+        self,
+        file: str,
+        section: ReportSection,
+        figures: Sequence[str],
+        tables: Sequence[str],
+        links: tuple[FileLink, ...] = (),
     ) -> ShownStudy:
-        chapter = section.chapter
-
-        def linked(texts: Sequence[str]) -> tuple[Markup, ...]:
-            return tuple(self.places.linked(file, chapter.study, text) for text in texts)
-
         return ShownStudy(
-            name=chapter.study,
-            title=chapter.title,
-            question=chapter.question,
-            answer=linked((chapter.answer,))[0],
-            numbers=linked(chapter.numbers),
-            method=linked(chapter.method),
-            findings=linked(chapter.findings),
-            figures=tuple(self._figure(file, name) for name in figures),
-            tables=tuple(self._table(file, section, name) for name in tables),
+            section.chapter,
+            tuple(self._figure(file, name) for name in figures),
+            tuple(self._table(file, section, name) for name in tables),
+            links,
         )
 
     def _more(self, section: ReportSection) -> tuple[FileLink, ...]:
@@ -305,7 +271,7 @@ class Arrangement:
         picture = next(one for one in section.chapter.pictures if one.stem == stem)
         return ShownFigure(
             image=image(section.folder / f"{stem}.png"),
-            caption=self.places.linked(file, study, picture.caption),
+            caption=self.places.linked(file, picture.caption, study),
             live=Markup(self.live[file].places.get(name, "")),
             anchor=anchor(name),
             label=self.places.known[name][1] + ".",
@@ -318,7 +284,7 @@ class Arrangement:
         sheet = chapter.sheets[_names(chapter, chapter.sheets).index(name)]
 
         def linked(text: str) -> Markup:
-            return self.places.linked(file, chapter.study, text)
+            return self.places.linked(file, text, chapter.study)
 
         caption, rows = linked(sheet.caption), sheet.rows
         if file == PAGE and len(rows) > MOST_ROWS:

@@ -6,11 +6,10 @@ import re
 
 import pytest
 
-from studies.claims import claim_list
 from studies.claims.claim_list import CLAIMS, Claim
-from studies.claims.evidence import Evidence, Measured
+from studies.claims.evidence import Evidence, Measured, NotedEvidence
 from studies.claims.plausible import REFERENCE
-from studies.claims.plausible_runs import evidence, measures
+from studies.claims.plausible_runs import CLEARANCES, evidence, measures
 from studies.common import paper_machine, rise
 from tests.cases.evidence_cases import blurred, right, wrong
 
@@ -43,26 +42,22 @@ def test_every_judge_leaves_open_what_the_numerical_error_leaves_open(claim: Cla
 
 
 @pytest.mark.slow  # all cases of a machine
-@pytest.mark.parametrize("claim", numbered([c for c in CLAIMS if c.judge is not None]))
+@pytest.mark.parametrize("claim", numbered(ON_MACHINES))
 def test_every_judge_finds_what_it_asks_for_in_real_measures(claim: Claim, reference: Evidence) -> None:
     assert claim.judge is not None
-    assert claim.judge(reference) in (True, False, None)
-    said = claim.tell(reference)
-    assert re.search(r"\d", said)
-    assert "nan" not in said
+    noted = NotedEvidence(reference.measures)
+    assert claim.judge(noted) in (True, False, None)
+    assert re.search(r"\d", noted.said(CLEARANCES))
+    assert "nan" not in noted.said(CLEARANCES)
 
 
 def test_closed_forms_are_judged_to_all_digits_printed(monkeypatch: pytest.MonkeyPatch) -> None:
-    closed = [claim for claim in CLAIMS if claim.closed_form]
+    closed = [claim.judge for claim in CLAIMS if claim.closed_form]
     assert len(closed) == 2
-    nothing = Evidence({})
-    ours = [paper_machine.stiffness(size) / 1e3**1.5 for size in (0.5, 1.0, 1.5, 2.0)]
-    for claim in closed:
-        assert claim.judge is not None
-        assert claim.judge(nothing) is True
-        monkeypatch.setattr(claim_list, "_STIFFNESSES", [k + 0.001 for k in ours])  # the last digit printed
-        assert claim.judge(nothing) is False
-        monkeypatch.setattr(claim_list, "_STIFFNESSES", ours)
+    nothing, ours = Evidence({}), paper_machine.stiffness
+    assert all(judge(nothing) is True for judge in closed if judge)
+    monkeypatch.setattr(paper_machine, "stiffness", lambda size: ours(size) + 0.001 * 1e3**1.5)
+    assert all(judge(nothing) is False for judge in closed if judge)  # the last digit printed
 
 
 # --- single readings ---
