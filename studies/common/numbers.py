@@ -3,7 +3,7 @@
 import json
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import cast
 
@@ -110,7 +110,9 @@ def measured_all(
             paper = (papers or {}).get((name, case))
             if isinstance(measure, Versus):
                 ideal = results[ideal_of(case)]
-                numbers.append(compared(name, case, unit, run, ideal, measure.get, paper))
+                number = compared(name, case, unit, run, ideal, measure.get, paper)
+                error = number.numerical_error + measure.missed(run, ideal)
+                numbers.append(replace(number, numerical_error=error))
             else:
                 numbers.append(measured(name, case, unit, run, measure, paper))
     return numbers
@@ -131,10 +133,14 @@ def compared(
     measure: Callable[[Result, Result], float],
     paper: float | None = None,
 ) -> Number:
-    """A number of a run beside another one, with the same records; the errors of both add up."""
-    here = run.estimate(lambda finer: measure(finer, other), unit)
-    there = other.estimate(lambda finer: measure(run, finer), unit)
-    error = here.error if run is other else here.error + there.error
+    """A number of a run beside another one, with the same records; the errors of both add up.
+
+    Of a run beside itself what is the same at all steps has no error.
+    """
+    here = run.estimate(lambda finer: measure(finer, finer if run is other else other), unit)
+    error = here.error
+    if run is not other:
+        error += other.estimate(lambda finer: measure(run, finer), unit).error
     error += error_of_records(lambda n: measure(cast(Result, Thinned(run, n)), cast(Result, Thinned(other, n))))
     return Number(name, case, here.value, unit, error, paper)
 

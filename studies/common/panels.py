@@ -64,7 +64,7 @@ def heading(axes: Axes, text: str) -> None:
 
 def error_bars(
     axes: Axes,
-    places: Sequence[float],
+    places: Sequence[float] | np.ndarray,
     row: Sequence[Number],
     scale: float = 1.0,
     *,

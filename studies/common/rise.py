@@ -45,9 +45,13 @@ class MeasuredRun(Protocol):
 
 @dataclass(frozen=True)
 class Versus:
-    """A measure of a run against that of the ideal pin; see `Watched.shift`."""
+    """A measure of a run and of that of the ideal pin.
+
+    missed: by how much it may be off because its times lie inside intervals of the statistics.
+    """
 
     get: Callable[[Any, Any], float]
+    missed: Callable[[Any, Any], float] = lambda run, ideal: 0.0
 
 
 Measure = Callable[[Any], float]  # of a run

@@ -1,15 +1,18 @@
-"""Which pins are clearance, with how much clearance and friction, in the cases of `which_pin`."""
+"""Which pins are clearance, with how much clearance and friction, and what is measured of these cases."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import combinations
 
-from studies.common.numbers import Found, Number
+import numpy as np
+
+from studies.common.numbers import Found, Measures, Number, measured_all
 from studies.common.paper_machine import CLEARANCE_MM
-from studies.common.rise import Watched
+from studies.common.rise import DEGREES, Measure, Versus, Watched
 from studies.common.subject import Subject, without_clearance
-from support_exudyn import ClearancePin, CubicStep, Scenario, SolverSettings
+from studies.which_pin.closed_form import posture_numbers
+from support_exudyn import ClearancePin, CubicStep, Result, Scenario, SolverSettings
 from support_exudyn.machines.four_bar_shield import PINS
 from support_exudyn.mechanics.channels import ALL_CHANNELS
 from support_exudyn.simulation.automatic_settings import cheapest, settings_for
@@ -18,7 +21,8 @@ from user_forces.values.value import InputError
 CONDITIONS = ((0.25, 1.5), (0.1, 1.5), (0.25, 0.5), (0.0, 1.5))  # friction and clearance [mm], single pins
 ADDS_UP = 2.0  # [%]: shifts whose sum is off by less are said to add up; ten times that for shaking
 ALIKE = 0.05  # pins whose effects differ by less of the larger are said to be alike
-SHIFT, SHAKING = "mean_tip_shift_forward", "rms_pin_forces"  # numbers by which pins are ordered
+SHIFT, FORCES, SHAKING = RANKED = "mean_tip_shift_forward", "largest_change_of_a_mean_force", "rms_pin_forces"
+OVER_IDEAL = "largest_peak_over_ideal"
 IDEAL = "ideal"  # without friction
 ALL = "all five"  # of the paper's machine
 SHAKEN = ("rear_link", "shield", "canopy")  # its bodies whose angular acceleration is looked at
@@ -91,6 +95,13 @@ class PinPlan:
         """Whether the machine has a canopy with a tip, whose posture is looked at."""
         machine = self.subject.motion.unloaded
         return TIP in machine.points and ROOF in machine.bodies
+
+    @property
+    def rankings(self) -> dict[str, str]:
+        """The orders of the machine's pins: title and number."""
+        titles = ("by the tip's position", "by the forces", "by the shaking")
+        every = dict(zip(titles, RANKED, strict=True))
+        return {title: name for title, name in every.items() if self.has_tip or name != SHIFT}
 
     @property
     def clearance_mm(self) -> float:
@@ -177,3 +188,73 @@ class PinPlan:
         motion = replace(self.motion, pins=dict.fromkeys(pins, pin) if friction else {})
         motion = replace(motion, formulation="auto", solver=SolverSettings())
         return replace(motion, formulation=cheapest(motion))
+
+    # --- measures ---
+
+    @property
+    def measures(self) -> Measures:
+        """Unit and measure of every number of a run against the ideal one, by name."""
+        watched, forces = self.watched, self.forces
+        peaks = {f"largest_force_{name}": watched.peak(channel) for channel, name in forces.items()}
+
+        def changes(run: Result, ideal: Result) -> dict[str, float]:
+            of = watched.mean
+            return {name: 100.0 * (of(run, force) / of(ideal, force) - 1.0) for force, name in forces.items()}
+
+        def all_pins(run: Result) -> float:
+            each = [watched.rms_fluctuation(run, run[f"pin.{name}.force"]) for name in self.pins]
+            return float(np.sqrt(np.mean(np.square(each))))
+
+        def missed(run: Result, ideal: Result) -> float:  # where both forces are taken from records
+            return max(
+                (peak.missed(run) + peak(run) / peak(ideal) * peak.missed(ideal)) / peak(ideal)
+                for peak in peaks.values()
+            )
+
+        over_ideal = Versus(lambda run, ideal: max(p(run) / p(ideal) for p in peaks.values()), missed)
+
+        def lost(run: Result) -> float:
+            all_lost = run["energy.damping_loss"] + run["energy.friction_loss"]
+            return float(np.diff(all_lost[watched.in_rise(run)][[0, -1]])[0])
+
+        def change_of(name: str) -> Versus:
+            return Versus(lambda run, ideal: changes(run, ideal)[name])
+
+        found: dict[str, tuple[str, Measure | Versus]] = {
+            FORCES: ("%", Versus(lambda run, ideal: max(map(abs, changes(run, ideal).values())))),
+            OVER_IDEAL: ("1", over_ideal),
+            SHAKING: ("N", all_pins),
+            "energy_lost_in_rise": ("J", lost),
+            **{name: ("N", peak) for name, peak in peaks.items()},
+        }
+        for body in self.shaken:
+            fluctuation = watched.fluctuation_of(f"{body}.angular_acceleration", DEGREES)
+            found[f"rms_{body}_angular_acceleration"] = ("deg/s^2", fluctuation)
+        for channel, name in forces.items():
+            found[f"mean_force_{name}"] = ("N", watched.mean_of(channel))
+            found[f"change_of_mean_force_{name}"] = ("%", change_of(name))
+            found[f"rms_force_{name}"] = ("N", watched.fluctuation_of(channel))
+        return found | (self._of_posture if self.has_tip else {})
+
+    @property
+    def _of_posture(self) -> dict[str, tuple[str, Measure | Versus]]:
+        watched = self.watched
+
+        def largest(run: Result, ideal: Result) -> float:
+            along, up = (watched.departure(run, ideal, f"{TIP}.{axis}") for axis in "xy")
+            return 1e3 * float(np.hypot(along, up).max())
+
+        return {
+            SHIFT: ("mm", watched.shift_of(f"{TIP}.x", 1e3)),
+            "mean_tip_shift_up": ("mm", watched.shift_of(f"{TIP}.y", 1e3)),
+            "largest_tip_shift": ("mm", Versus(largest)),
+            "mean_canopy_tilt": ("deg", watched.shift_of(f"{ROOF}.angle", DEGREES)),
+            "rms_tip_forward": ("mm", watched.fluctuation_of(f"{TIP}.x", 1e3)),
+        }
+
+    def numbers(self, results: Mapping[str, Result]) -> list[Number]:
+        """All numbers of the runs, and those of the closed form beside them."""
+        numbers = measured_all(results, self.measures, self.ideal_of)
+        for case in self.loose if self.subject.is_paper else ():
+            numbers += posture_numbers(case, results[case].scenario)
+        return numbers

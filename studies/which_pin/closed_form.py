@@ -34,16 +34,15 @@ from support_exudyn import (
     reference_support,
 )
 from support_exudyn.machines.four_bar_shield import PINS
-from support_exudyn.machines.four_column_support import Posture
 from support_exudyn.mechanics.kinetics import Kinetics, kinetics_of
 from support_exudyn.model.linkage import GROUND
-from support_exudyn.model.plane_geometry import minus, moved
 from user_forces.values.value import Vector2
 
 Matrix = npt.NDArray[np.float64]
 
 GRAVITY = (0.0, -9.81)  # [m/s^2]
 BESIDE = 5e-3  # [s] between the postures by which speeds and accelerations are taken
+NEWTON = 8  # steps from a posture to the next; their errors are squared by each
 ROUNDS = 20  # of pin forces and the friction that follows from them; each leaves a tenth of the last change
 TIP_X, TIP_Y, TILT = range(3)  # of a shift [m], [m], [rad]
 
@@ -87,35 +86,22 @@ class Stand:
 def stands(support: HydraulicSupport, drive: Drive, times: Sequence[float]) -> list[Stand]:
     """The support along a stroke, with the inertia that goes with it; both columns follow the drive."""
     closed = kinetics_of(support.linkage())
-    found, near = [], support.start()
+    position = np.zeros(3 * len(closed.linkage.bodies))
+    wanted = closed.values(position)  # of pins, and lengths of columns
+    columns = np.array(["column" in name for _, name in closed.owners()])
+
+    def close(position: Matrix, t: float) -> Matrix:
+        for _ in range(NEWTON):
+            off = wanted + columns * drive.extension(t) - closed.values(position)
+            position = position + np.linalg.solve(closed.rows(position), off)
+        return position
+
+    found = []
     for t in times:
-        rows = []
-        for beside in (-BESIDE, 0.0, BESIDE):
-            posture = support.extended(drive.extension(t + beside), near)
-            if posture is None:
-                raise ArithmeticError(f"no posture of the support at {t} s of {drive}")
-            near = posture
-            rows.append(coordinates(support, posture))
-        before, position, after = rows
+        before, position, after = (close(position, t + beside) for beside in (-BESIDE, 0.0, BESIDE))
         speed = (after - before) / (2.0 * BESIDE)
         found.append(Stand(closed, position, speed, (after - 2.0 * position + before) / BESIDE**2))
     return found
-
-
-def coordinates(support: HydraulicSupport, posture: Posture) -> Matrix:
-    """How far all bodies have come from the start posture (12,) [m], [rad]."""
-    start, linkage = support.start(), support.linkage()
-    pivots: dict[str, tuple[Vector2, Vector2]] = {
-        "rear_link": (support.rear_base, support.rear_base),
-        "front_link": (support.front_base, support.front_base),
-        "shield": (start.rear_shield, posture.rear_shield),
-        "canopy": (start.hinge, posture.hinge),
-    }
-    found = []
-    for name, body in linkage.bodies.items():
-        turned = getattr(posture, name) - getattr(start, name)
-        found += [*minus(moved(body.centre, *pivots[name], turned), body.centre), turned]
-    return np.array(found)
 
 
 def standing(support: HydraulicSupport) -> Stand:

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from itertools import cycle
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -9,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from studies.common.numbers import Found
-from studies.common.panels import finish, forward_arrow, letters
+from studies.common.panels import error_bars, finish, forward_arrow, grid, heading, letters
 from studies.which_pin.cases import SHAKING, SHIFT, PinPlan
 from studies.which_pin.closed_form import UnderLoad
 from support_exudyn.machines.four_bar_shield import PINS
@@ -17,6 +18,7 @@ from support_exudyn.postprocessing.figures import style
 
 PLAIN = "#777777"  # without friction, as in the study of the clearance's size
 HATCH = "///"
+CLOSED_FORM = "closed_form_tip_shift_forward"
 COLOURS = (style.WITH_CLEARANCE, style.SMOOTH, style.THIRD, "#CC79A7", style.IDEAL)
 DASHES: tuple[style.Dashes, ...] = ("-", (0, (5, 1)), (0, (1, 1)), (0, (3, 1, 1, 1)), "-")
 MARKS = dict(zip(PINS, "osD^x", strict=True))
@@ -46,8 +48,7 @@ def _friction(friction: float) -> str:
 
 def shift_figure(plan: PinPlan, found: Found) -> Figure:
     """Bars of the forward shift, and single shifts end to end in the plane."""
-    drawing = Figure(figsize=style.size(170, 90))
-    bars, plane = drawing.subplots(1, 2, width_ratios=(1.2, 1.0))
+    drawing, ((bars, plane),) = grid(90, 1, 2, width_ratios=(1.2, 1.0))
     places = np.arange(len(plan.pins) + 1)
     looks = ((-0.2, style.WITH_CLEARANCE, None), (0.2, "#cccccc", HATCH))
     for friction, (side, colour, hatch) in zip(plan.frictions, looks, strict=True):
@@ -57,7 +58,7 @@ def shift_figure(plan: PinPlan, found: Found) -> Figure:
             xerr=[n.numerical_error for n in row], capsize=2, error_kw={"lw": 0.8}, lw=0.5,
             label=_friction(friction), zorder=3,
         )  # fmt: skip
-        names = [("closed_form_tip_shift_forward", plan.case_name(pins, friction)) for pins in _cases(plan)]
+        names = [(CLOSED_FORM, plan.case_name(pins, friction)) for pins in _cases(plan)]
         if names[0] in found:
             values, label = [found[name].value for name in names], "virtual work" if friction else None
             bars.plot(values, places + side, "x", color=style.IDEAL, ms=4, mew=1.0, label=label, zorder=4)
@@ -109,30 +110,26 @@ def shaking_figure(plan: PinPlan, found: Found) -> Figure:
         f"rms_{body}_angular_acceleration": (1.0, f"{body.replace('_', ' ')},\nacceleration\n[deg/s²]")
         for body in bodies
     }
-    drawing = Figure(figsize=style.size(170, 20 + 42 * len(shown)))
-    panels = drawing.subplots(len(shown), 1, sharex=True, squeeze=False)[:, 0]
+    drawing, panels = grid(20 + 42 * len(shown), len(shown), 1, sharex=True)
     places = np.arange(len(plan.pins) + 1)
     looks = ((-0.1, style.WITH_CLEARANCE, "o"), (0.1, PLAIN, "s"))
-    for axes, (name, (scale, label)) in zip(panels, shown.items(), strict=True):
+    for axes, (name, (scale, label)) in zip(panels.flat, shown.items(), strict=True):
         for friction, (side, colour, mark) in zip(plan.frictions, looks, strict=True):
             row = [found[name, plan.case_name(pins, friction)] for pins in _cases(plan)]
-            axes.errorbar(
-                places + side, [scale * n.value for n in row], [scale * n.numerical_error for n in row],
-                fmt=mark, color=colour, ms=5, capsize=3, lw=1.0, label=_friction(friction),
-            )  # fmt: skip
+            look: dict[str, Any] = {"fmt": mark, "color": colour, "ms": 5, "capsize": 3, "lw": 1.0}
+            error_bars(axes, places + side, row, scale, label=_friction(friction), **look)
         ideal = scale * found[name, plan.ideal_name(plan.pins, plan.frictions[0])].value
         axes.axhline(ideal, color=style.IDEAL, ls=(0, (4, 2)), label="ideal pins")
         axes.set_yscale("log")
         axes.set_ylabel(label)
         axes.set_xticks(places, [_broken(name) for name in _names(plan)], fontsize=7)
-    drawing.align_ylabels(list(panels))
+    drawing.align_ylabels(panels[:, 0])
     return finish(drawing, panels, 3)
 
 
 def load_figure(under_loads: Mapping[str, UnderLoad]) -> Figure:
     """A panel for each load."""
-    drawing = Figure(figsize=style.size(170, 120))
-    panels = drawing.subplots(2, 3, sharex=True, sharey=True)
+    drawing, panels = grid(120, 2, 3, sharex=True, sharey=True)
     for axes, (name, under) in zip(panels.flat, under_loads.items(), strict=True):
         for pin, colour, dashes in zip(PINS, COLOURS, DASHES, strict=True):
             first = int(pin.endswith("_shield"))  # pins at both ends of a link have the same curve
@@ -141,7 +138,7 @@ def load_figure(under_loads: Mapping[str, UnderLoad]) -> Figure:
                 marker=MARKS[pin], ms=4, markevery=(first, 2), label=pin.replace("_", " "),
             )  # fmt: skip
         axes.axhline(0.0, color=PLAIN, lw=0.5)
-        axes.annotate(name, (0.5, 1.0), (0.0, 7.0), "axes fraction", "offset points", ha="center", fontsize=8)
+        heading(axes, name)
     for axes in panels[1]:
         axes.set_xlabel("extension [mm]")
     for axes in panels[:, 0]:

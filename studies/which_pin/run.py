@@ -6,8 +6,8 @@ the tip's position, to the forces and to the shaking in the rise.
 
 import sys
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import combinations
+from typing import NamedTuple
 
 import numpy as np
 
@@ -17,30 +17,13 @@ from studies.common.runs import run_with_errors
 from studies.common.study import Study, StudyOutcome
 from studies.common.words import text_table
 from studies.which_pin import cases
-from studies.which_pin.cases import ALIKE, IDEAL, SHAKING, SHIFT, PinPlan
+from studies.which_pin.cases import ALIKE, FORCES, IDEAL, OVER_IDEAL, SHAKING, SHIFT, PinPlan
 from studies.which_pin.closed_form import UnderLoad, loads
-from studies.which_pin.figures import figures
-from studies.which_pin.measures import OVER_IDEAL, measure
+from studies.which_pin.figures import CLOSED_FORM, figures
 from support_exudyn.machines.four_bar_shield import PINS
 from support_exudyn.postprocessing.page.pieces import Sheet
 
 # --- tables and sentences ---
-
-RANKED = {  # title of an order of pins, and its number
-    "by the tip's position": SHIFT,
-    "by the forces": "largest_change_of_a_mean_force",
-    "by the shaking": SHAKING,
-}
-
-
-def rankings(plan: PinPlan) -> dict[str, str]:
-    """The orders of a machine's pins: title and number."""
-    return {title: name for title, name in RANKED.items() if plan.has_tip or name != SHIFT}
-
-
-def effects_of(plan: PinPlan) -> tuple[str, ...]:
-    """By what the pins of a machine are put in order: the tip's shift, if it has one, and the shaking."""
-    return (SHIFT, SHAKING) if plan.has_tip else (SHAKING,)
 
 
 def ranked(plan: PinPlan, found: Found, name: str, friction: float) -> list[str]:
@@ -81,10 +64,15 @@ def order_of(row: Mapping[str, Number]) -> str:
     return in_order(effects, {pin: number.numerical_error for pin, number in row.items()})
 
 
+def _effects(plan: PinPlan) -> list[str]:
+    """By what the pins of a machine are put in order: the tip's shift, if it has one, and the shaking."""
+    return [name for name in plan.rankings.values() if name != FORCES]
+
+
 def condition_table(plan: PinPlan, found: Found) -> Sheet:
     """Orders by shift and by shaking under other frictions and clearances."""
     rows = []
-    for name in effects_of(plan):
+    for name in _effects(plan):
         what = f"{name.replace('_', ' ')} [{found[name, IDEAL].unit}]"
         for friction, size in plan.conditions:
             if (name, plan.case_name(plan.pins[:1], friction, size)) in found:
@@ -98,7 +86,7 @@ def together_table(plan: PinPlan, found: Found) -> Sheet:
     """Whether the whole is the sum of its parts."""
     rows = []
     for friction in plan.frictions:
-        for name in effects_of(plan):
+        for name in _effects(plan):
             for pins in _together(plan, found, friction):
                 case = plan.case_name(pins, friction)
                 whole, expected = found[name, case], _expected(plan, found, name, pins, friction)
@@ -110,7 +98,7 @@ def together_table(plan: PinPlan, found: Found) -> Sheet:
 
 def _together(plan: PinPlan, found: Found, friction: float) -> list[tuple[str, ...]]:
     sets = [plan.pins, *combinations(plan.pins, 2)]
-    return [pins for pins in sets if ("rms_pin_forces", plan.case_name(pins, friction)) in found]
+    return [pins for pins in sets if (SHAKING, plan.case_name(pins, friction)) in found]
 
 
 # how effects of single pins make that of several: shifts add up, independent vibrations by their squares
@@ -130,8 +118,7 @@ def _expected(plan: PinPlan, found: Found, name: str, pins: Sequence[str], frict
     return Number(name, plan.case_name(pins, friction), whole, alone[pins[0]].unit, error)
 
 
-@dataclass(frozen=True)
-class Sum:
+class Sum(NamedTuple):
     """How far some pins together are off what the single ones make.
 
     pins: what they are called. text: in words, to its error. off: in per cent of that.
@@ -153,42 +140,34 @@ def sums(plan: PinPlan, found: Found, name: str, friction: float) -> list[Sum]:
     return result
 
 
-def posture_table(found: Found) -> Sheet:
-    """The simulated shift with that of the closed form."""
-    rows = []
-    for case, (run, form) in _closed_forms(found).items():
-        rows.append((case, cell(run), f"{form.value:.4f}", f"{100.0 * (run.value / form.value - 1.0):+.2f} %"))
-    return text_table(("case", "run [mm]", "closed form [mm]", "run is off by"), rows)
+def off_closed_form(found: Found) -> list[tuple[str, float, Number, Number]]:
+    """Each case, the share by which its shift is off the closed form, and both numbers."""
+    pairs = [(case, found[SHIFT, case], form) for (name, case), form in found.items() if name == CLOSED_FORM]
+    return [(case, abs(run.value / form.value - 1.0), run, form) for case, run, form in pairs]
 
 
-def off_closed_form(found: Found) -> list[tuple[str, float]]:
-    """Each case, and the share by which its shift is off the closed form."""
-    return [(case, abs(run.value / form.value - 1.0)) for case, (run, form) in _closed_forms(found).items()]
-
-
-def _closed_forms(found: Found) -> dict[str, tuple[Number, Number]]:
-    """The simulated shift forward and that of the closed form, by case."""
-    return {
-        case: (found["mean_tip_shift_forward", case], form)
-        for (name, case), form in found.items()
-        if name == "closed_form_tip_shift_forward"
-    }
-
-
-def load_table(under_loads: Mapping[str, UnderLoad]) -> Sheet:
-    """Shift of the tip by pin and load, and the order that it makes."""
+def closed_form_tables(found: Found, under_loads: Mapping[str, UnderLoad]) -> dict[str, Sheet]:
+    """The simulated shift with that of the closed form; shift of the tip by pin and load, and its order."""
+    shifts = [
+        (case, cell(run), f"{form.value:.4f}", f"{100.0 * (run.value / form.value - 1.0):+.2f} %")
+        for case, _, run, form in off_closed_form(found)
+    ]
     rows = []
     for name, under in under_loads.items():
         means = {pin: under.mean(pin) for pin in PINS}
         cells = (f"{1e3 * mean:.2f}" for mean in means.values())
         rows.append((name, *cells, f"{under.thrust / 1e3:.0f}", in_order(means)))
-    return text_table(("load besides the weight", *PINS, "least column thrust [kN]", "order"), rows)
+    header = ("load besides the weight", *PINS, "least column thrust [kN]", "order")
+    return {
+        "table_closed_form": text_table(("case", "run [mm]", "closed form [mm]", "run is off by"), shifts),
+        "table_loads": text_table(header, rows),
+    }
 
 
 def key_table(plan: PinPlan, found: Found) -> Sheet:
     """The effects of each pin with friction, the largest first; then all pins together, and ideal pins."""
     friction = plan.frictions[0]
-    wanted = SHIFT, "mean_canopy_tilt", RANKED["by the forces"], OVER_IDEAL, SHAKING
+    wanted = SHIFT, "mean_canopy_tilt", FORCES, OVER_IDEAL, SHAKING
     names = [name for name in wanted if (name, IDEAL) in found]
     cases = [plan.case_name((pin,), friction) for pin in ranked(plan, found, names[0], friction)]
     cases.append(plan.case_name(plan.pins, friction))
@@ -206,14 +185,13 @@ def work(chosen: Options) -> StudyOutcome:
     plan = PinPlan(chosen.subject)
     results = run_with_errors(plan.scenarios, chosen)
     under_loads = loads(plan.pin(0.0, plan.clearance_mm)) if plan.subject.is_paper else {}
-    numbers = measure(plan, results)
+    numbers = plan.numbers(results)
     found = by_case(numbers)
     conditions = condition_table(plan, found)
-    closed_form = {"table_closed_form": posture_table(found), "table_loads": load_table(under_loads)}
     sheets = {
         "which_pin": key_table(plan, found),
         "table_together": together_table(plan, found),
-        **(closed_form if plan.subject.is_paper else {}),
+        **(closed_form_tables(found, under_loads) if plan.subject.is_paper else {}),
         "table_conditions": conditions,
     }
     means = {name: {pin: under.mean(pin) for pin in PINS} for name, under in under_loads.items()}

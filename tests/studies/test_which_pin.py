@@ -13,8 +13,7 @@ from studies.common.subject import own_subject, paper_subject, without_clearance
 from studies.which_pin import cases as which_pin_cases
 from studies.which_pin import closed_form as clearance
 from studies.which_pin.closed_form import loads, mean_shift
-from studies.which_pin.measures import measures
-from studies.which_pin.run import in_order, rankings
+from studies.which_pin.run import in_order
 from support_exudyn import ClearancePin, Result, SolverSettings, reference_support, simulate
 from support_exudyn.mechanics.postures import eccentric
 from tests.studies.forms import ONLY_WHOLE, Numbers, numbers_of, results
@@ -166,8 +165,8 @@ def test_of_a_machine_without_canopy_and_columns_only_forces_and_shaking_are_tol
     path = tmp_path / "my_crank.toml"
     path.write_text(CRANK, encoding="utf-8")
     plan = which_pin_cases.PinPlan(own_subject(path, "crank_pin"))
-    assert list(rankings(plan)) == ["by the forces", "by the shaking"]
-    assert not any("tip" in name for name in measures(plan))
+    assert list(plan.rankings) == ["by the forces", "by the shaking"]
+    assert not any("tip" in name for name in plan.measures)
     assert list(plan.forces.values()) == list(plan.pins)
     path.write_text("record_period_ms = 1" + CRANK.replace("0.3", "0.03"), encoding="utf-8")
     with pytest.raises(InputError, match=r"motion from 0 to 0\.03 s, .* allowed: longer than 0\.04 s"):
