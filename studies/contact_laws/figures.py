@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
 from studies.common.numbers import Found, Number, by_case
-from studies.common.panels import finish, fit_height
+from studies.common.panels import error_bars, finish, fit_height, grid
 from studies.common.rise import Watched, between
 from studies.contact_laws.cases import ASKED, KEY, PIN, REST
 from studies.contact_laws.catalogue import POWER_LAWS, title
@@ -25,8 +25,7 @@ SHOWN = {"exact": 0, "lankarani_nikravesh": 1, "hunt_crossley": 2, "flores": 3} 
 
 def answer_figure(found: Found) -> Figure:
     """What laws deliver over what they are asked for (a), and the pin force under laws of the key table (b)."""
-    drawing = Figure(figsize=style.size(170, 72))
-    delivered, force = drawing.subplots(1, 2, width_ratios=(1.0, 1.15))
+    drawing, ((delivered, force),) = grid(72, 1, 2, width_ratios=(1.0, 1.15))
     fine = np.linspace(0.01, 1.0, 200)
     colours = (style.WITH_CLEARANCE, style.SMOOTH, style.THIRD, "black")
     for name, law in POWER_LAWS.items():
@@ -79,8 +78,7 @@ def _plain_log(axes: Axes) -> None:
 
 def loop_figure(results: Mapping[str, Result]) -> Figure:
     """Force over depth in a free impact, a panel for each law."""
-    drawing = Figure(figsize=style.size(170, 170))
-    panels = drawing.subplots(4, 4)
+    drawing, panels = grid(170, 4, 4)
     for axes, result in zip(panels.flat, results.values(), strict=True):
         depth, force = result[f"pin.{PIN}.depth"], result[f"pin.{PIN}.normal_force"]
         closed = depth > 0.0
@@ -115,13 +113,13 @@ def rise_figure(watched: Watched, numbers: Sequence[Number]) -> Figure:
         ("largest_pin_force_any_step", 1e-3, "largest force,\nwhole run [kN]"),
         ("energy_dissipated", 1.0, "energy lost,\nwhole run [J]"),
     ]
-    drawing = Figure(figsize=style.size(178, 35 + 5 * len(cases)))
-    panels = drawing.subplots(1, len(shown), sharey=True)
+    drawing, (panels,) = grid(35 + 5 * len(cases), 1, len(shown), 178, sharey=True)
     rows = np.arange(len(cases))
     for axes, (name, scale, label) in zip(panels, shown, strict=True):
-        values = np.array([scale * found[name, case].value for case in cases])
-        errors = np.array([scale * found[name, case].numerical_error for case in cases])
-        axes.errorbar(values, rows, xerr=errors, fmt="o", ms=3, color=style.WITH_CLEARANCE, capsize=2, lw=0.8)
+        row = [found[name, case] for case in cases]
+        look = {"fmt": "o", "ms": 3, "capsize": 2, "lw": 0.8}
+        error_bars(axes, rows, row, scale, across=True, color=style.WITH_CLEARANCE, **look)
+        values = np.array([scale * n.value for n in row])
         axes.set(xlabel=label)
         if values.max() > 4.0 * np.median(values) and values.min() > 0.0:
             axes.set_xscale("log")
@@ -133,22 +131,17 @@ def rise_figure(watched: Watched, numbers: Sequence[Number]) -> Figure:
 
 def permanent_figure(watched: Watched, results: Mapping[str, Result]) -> Figure:
     """The pin force from a settled start with clearance in all pins, by rest velocity."""
-    drawing = Figure(figsize=style.size(170, 125))
-    whole, rest = drawing.subplots(2, 1)
+    drawing, panels = grid(125, 2, 1)
     colours = (style.SMOOTH, style.WITH_CLEARANCE, style.THIRD, style.IDEAL)
-    curves = [(case, colour, "-", case) for case, colour in zip(REST, colours, strict=True)]
-    end = results[curves[0][0]].time[-1]
-    for axes, span in (
-        (whole, (0.0, end)),
-        (rest, (watched.start, watched.start + 0.2 * (end - watched.start))),
-    ):
-        for case, colour, dashes, label in curves:
-            result = results[case]
-            axes.plot(result.time, 1e-3 * result[watched.force], color=colour, ls=dashes, lw=0.9, label=label)
+    end = max(run.time[-1] for run in results.values())
+    part = watched.start, watched.start + 0.2 * (end - watched.start)
+    for axes, span in zip(panels.flat, ((0.0, end), part), strict=True):
+        for case, colour in zip(REST, colours, strict=True):
+            run = results[case]
+            axes.plot(run.time, 1e-3 * run[watched.force], color=colour, lw=0.9, label=case)
         axes.set(xlim=span, xlabel="time [s]", ylabel="pin force [kN]")
-        inside = [results[c][watched.force][between(results[c], *span)] for c, *_ in curves]
-        fit_height(axes, (1e-3 * force for force in inside))
-    return finish(drawing, [whole, rest], 1)
+        fit_height(axes, (1e-3 * results[c][watched.force][between(results[c], *span)] for c in REST))
+    return finish(drawing, panels, 1)
 
 
 def row_title(case: str) -> str:

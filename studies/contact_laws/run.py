@@ -9,7 +9,7 @@ is damped.
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
-from studies.common.numbers import Found, Number, by_case, cell, counted, measured, measured_all, rounded
+from studies.common.numbers import Found, Measures, Number, by_case, cell, counted, measured_all
 from studies.common.options import Options
 from studies.common.rise import Watched
 from studies.common.runs import run_cases, run_with_errors
@@ -39,7 +39,9 @@ from support_exudyn import Result
 from support_exudyn.postprocessing.page.pieces import Sheet
 
 RUBBING = ", with friction"  # what cases of laws with hysteresis damping are called
-DELIVERED = "delivered_restitution"
+DELIVERED, CLOSED_FORM = "delivered_restitution", "closed_form_restitution"
+MEAN, STD, PEAK = "mean_pin_force", "std_pin_force", "largest_pin_force_any_step"
+LOW, HIGH = min(FEW), max(FEW)  # restitutions asked for in the key table
 
 
 # --- measures ---
@@ -47,38 +49,29 @@ DELIVERED = "delivered_restitution"
 
 def restitution_numbers(results: Mapping[str, Result], expected: Mapping[str, float]) -> list[Number]:
     """Delivered restitution and its closed form, by case."""
-    numbers = []
-    for case, closed_form in expected.items():
-        numbers.append(measured(DELIVERED, case, "1", results[case], cases.delivered_restitution))
-        numbers.append(Number("closed_form_restitution", case, closed_form, "1", 0.0))
-    return numbers
-
-
-RISE_UNITS = {
-    "mean_pin_force": "N", "std_pin_force": "N", "largest_pin_force_any_step": "N", "energy_dissipated": "J",
-    "energy_error": "J", "impacts": "1", "clamped_steps": "1",
-}  # fmt: skip
+    delivered = measured_all(
+        {case: results[case] for case in expected}, {DELIVERED: ("1", cases.delivered_restitution)}
+    )
+    return delivered + [Number(CLOSED_FORM, case, value, "1", 0.0) for case, value in expected.items()]
 
 
 def rise_numbers(watched: Watched, results: Mapping[str, Result]) -> list[Number]:
     """Mean and spread while the machine moves, the rest over the whole run, by case."""
-    measures: dict[str, Callable[[Result], float]] = {
-        "mean_pin_force": lambda r: watched.mean(r, watched.force),
-        "std_pin_force": lambda r: watched.spread(r, watched.force),
-        "largest_pin_force_any_step": lambda r: float(r.largest_force[watched.pin]),
-        "energy_dissipated": lambda r: r.dissipated,
-        "energy_error": lambda r: r.energy_error,
+    measures: Measures = {
+        MEAN: ("N", watched.mean_of(watched.force)),
+        STD: ("N", watched.spread_of(watched.force)),
+        PEAK: ("N", lambda run: float(run.largest_force[watched.pin])),
+        "energy_dissipated": ("J", lambda run: run.dissipated),
+        "energy_error": ("J", lambda run: run.energy_error),
     }
     counts: dict[str, Callable[[Result], int]] = {
-        "impacts": lambda r: len(r.onsets[watched.pin]),
-        "clamped_steps": lambda r: r.counts.clamped_steps,
+        "impacts": lambda run: len(run.onsets[watched.pin]),
+        "clamped_steps": lambda run: run.counts.clamped_steps,
     }
-    units = {name: (RISE_UNITS[name], measure) for name, measure in measures.items()}
-    numbers = []
-    for case, result in results.items():
-        numbers += measured_all({case: result}, units)
-        numbers += [counted(name, case, result, count) for name, count in counts.items()]
-    return numbers
+    counted_ones = [
+        counted(name, case, run, count) for case, run in results.items() for name, count in counts.items()
+    ]
+    return measured_all(results, measures) + counted_ones
 
 
 # --- tables ---
@@ -88,29 +81,12 @@ def key_table(found: Found) -> Sheet:
     """What an engineer asks for first, a row a law: what it delivers, and the motion under it."""
     rows = []
     for case in KEY:
-        restitutions = [found.get((DELIVERED, f"{case} e={asked:g}")) for asked in (min(FEW), max(FEW))]
-        forces = [found[f"{name}_pin_force", case] for name in ("mean", "std")]
-        peak = found["largest_pin_force_any_step", case]
-        kilonewtons = [rounded(1e-3 * n.value, 1e-3 * n.numerical_error) for n in (*forces, peak)]
+        restitutions = [found.get((DELIVERED, f"{case} e={asked:g}")) for asked in (LOW, HIGH)]
         delivered = ["" if n is None else f"{n.value:.3f}" for n in restitutions]
-        rows.append((row_title(case), *delivered, *kilonewtons))
-    asked = tuple(f"delivers for e = {e:g}" for e in (min(FEW), max(FEW)))
-    header = ("law", *asked, "mean force [kN]", "its std [kN]", "largest force [kN]")
-    return text_table(header, rows)
-
-
-def _impacts(numbers: Sequence[Number]) -> dict[str, list[str]]:
-    """Cases of free impacts by law."""
-    by_law: dict[str, list[str]] = {}
-    for n in numbers:
-        if n.name == DELIVERED:
-            by_law.setdefault(n.case.split(" ")[0], []).append(n.case)
-    return by_law
-
-
-def _off(found: Found, case: str) -> float:
-    """Distance of a delivered restitution from its closed form."""
-    return abs(found[DELIVERED, case].value - found["closed_form_restitution", case].value)
+        forces = (cell(found[name, case], 1e-3) for name in (MEAN, STD, PEAK))
+        rows.append((row_title(case), *delivered, *forces))
+    asked = tuple(f"delivers for e = {e:g}" for e in (LOW, HIGH))
+    return text_table(("law", *asked, "mean force [kN]", "its std [kN]", "largest force [kN]"), rows)
 
 
 def rest_table(watched: Watched, results: Mapping[str, Result], numbers: Sequence[Number]) -> Sheet:
@@ -120,7 +96,7 @@ def rest_table(watched: Watched, results: Mapping[str, Result], numbers: Sequenc
         result = results[case]
         ratio = damping_ratio(result.scenario, watched.pin)
         soft = [f"{soft_restitution(result.scenario, watched.pin, speed):.3f}" for speed in SOFT]
-        force = cell(found["std_pin_force", case])
+        force = cell(found[STD, case])
         rows.append((f"{1e3 * velocity:g}", f"{ratio:.2g}", *soft, force, f"{result.counts.steps}"))
     impacts = (f"delivered at {1e3 * speed:g} mm/s" for speed in SOFT)
     header = ("rest velocity [mm/s]", "damping ratio at rest", *impacts, "std pin force [N]", "steps")
@@ -137,82 +113,54 @@ def work(chosen: Options) -> StudyOutcome:
     joint = Joint(subject, subject.watched.mean(ideal, ideal[subject.watched.force]))
     laws = cases.impact_laws()
     impacts = {case: cases.free_impact(law, SPEED, IMPACT_STEPS) for case, (law, _) in laws.items()}
-    loops = {
-        f"loop {name}": cases.free_impact(law, SPEED, 128, records=800)
-        for name, law in cases.loop_laws().items()
-    }
-    at_steps = {name: case for name, case in joint.runs.items() if case.accuracy is None}
+    loops = {name: cases.free_impact(law, SPEED, 128, records=800) for name, law in cases.loop_laws().items()}
     made_anew = replace(chosen, kept=None)  # sooner than read: each takes a twentieth of a second
-    done = run_with_errors(impacts, made_anew) | run_cases(loops, made_anew)
-    done |= run_with_errors(joint.runs, chosen)
+    struck, looped = run_with_errors(impacts, made_anew), run_cases(loops, made_anew)
+    risen = run_with_errors(joint.runs, chosen)
     rubbed = run_with_errors({f"{name}{RUBBING}": case for name, case in joint.rubbing.items()}, chosen)
     resting = run_with_errors(joint.resting, chosen)
-    restitutions = restitution_numbers(done, {case: expected for case, (_, expected) in laws.items()})
-    risen = {name: done[name] for name in joint.runs}
-    numbers = rise_numbers(subject.watched, risen)
-    with_friction = rise_numbers(subject.watched, rubbed)
-    rested = rise_numbers(subject.watched, resting)
+    restitutions = restitution_numbers(struck, {case: expected for case, (_, expected) in laws.items()})
+    numbers, with_friction, rested = (rise_numbers(subject.watched, one) for one in (risen, rubbed, resting))
     found = by_case([*restitutions, *numbers])
     drawings = {
         "laws_at_a_glance": answer_figure(found),
-        "force_depth_loops": loop_figure({name.removeprefix("loop "): done[name] for name in loops}),
+        "force_depth_loops": loop_figure(looped),
         "rise_under_each_law": rise_figure(subject.watched, numbers),
         "permanent_contact": permanent_figure(subject.watched, resting),
     }
-    tables = {
-        "laws": key_table(found),
-        "rest_table": rest_table(subject.watched, resting, rested),
+    tables = {"laws": key_table(found), "rest_table": rest_table(subject.watched, resting, rested)}
+    words = _words(found, [*risen]) | {
+        "joint": joint,
+        "pin_length": joint.length or catalogue.pin_length(joint.pin.contact.bearing.bore_radius),
+        "bore_radius": joint.pin.contact.bearing.bore_radius,
+        "rubbing": _spreads(by_case(with_friction), [f"{name}{RUBBING}" for name in POWER_LAWS]),
+        "rested": by_case(rested),
+        "at_steps": {name: case for name, case in joint.runs.items() if case.accuracy is None},
+        "goal": ideal.goal,
     }
-    words = (
-        _of_impacts(joint, restitutions)
-        | _of_rises(numbers)
-        | {"rubbing": _spreads(by_case(with_friction), [f"{name}{RUBBING}" for name in POWER_LAWS])}
-        | {
-            "joint": joint,
-            "rested": by_case(rested),
-            "at_steps": at_steps,
-            "goal": ideal.goal,
-        }
-    )
-    live = {"permanent_contact": (0, 1)}
-    return StudyOutcome(
-        [*restitutions, *numbers, *with_friction, *rested], words, drawings, tables, risen | resting, live=live
-    )
+    every = [*restitutions, *numbers, *with_friction, *rested]
+    return StudyOutcome(every, words, drawings, tables, risen | resting, live={"permanent_contact": (0, 1)})
 
 
-def _of_impacts(joint: Joint, numbers: Sequence[Number]) -> dict[str, object]:
-    """What is said of free impacts, and of how all was run."""
-    found = by_case(numbers)
-    low, high = min(FEW), max(FEW)
-    power = {name: found[DELIVERED, f"{name} e={low:g}"].value for name in POWER_LAWS}
+def _words(found: Found, risen: Sequence[str]) -> dict[str, object]:
+    """What is said of free impacts, and of the rise under each law; risen: its cases."""
+    power = {name: found[DELIVERED, f"{name} e={LOW:g}"].value for name in POWER_LAWS}
+    frictions = [case for case in risen if case.startswith("friction ")]
+    hysteresis = [case for case in risen if case in POWER_LAWS]
+    closed = [one for one in found.values() if one.name == CLOSED_FORM]
+    peaks = {case: found[PEAK, case].value for case in risen if case not in frictions}
     return {
         "cases": cases,
         "impact": cases,
         "title": title,
         "row_title": row_title,
-        "pin_length": joint.length or catalogue.pin_length(joint.pin.contact.bearing.bore_radius),
-        "bore_radius": joint.pin.contact.bearing.bore_radius,
-        "offs": [_off(found, case) for of_law in _impacts(numbers).values() for case in of_law],
-        "low": low,
-        "high": high,
+        "offs": [abs(found[DELIVERED, one.case].value - one.value) for one in closed],
+        "low": LOW,
+        "high": HIGH,
         "power": power,
         "most": max(power, key=power.__getitem__),
         "least": min(power, key=power.__getitem__),
-        "paper_high": found[DELIVERED, f"lankarani_nikravesh e={high:g}"].value,
-    }
-
-
-def _of_rises(numbers: Sequence[Number]) -> dict[str, object]:
-    """What is said of the rise under each law."""
-    found = by_case(numbers)
-    all_cases = list(dict.fromkeys(n.case for n in numbers))
-    frictions = [case for case in all_cases if case.startswith("friction ")]
-    hysteresis = [case for case in all_cases if case in POWER_LAWS]
-    peaks = {
-        case: found["largest_pin_force_any_step", case].value for case in all_cases if case not in frictions
-    }
-
-    return {
+        "paper_high": found[DELIVERED, f"lankarani_nikravesh e={HIGH:g}"].value,
         "risen": found,
         "frictions": frictions,
         "hysteresis": hysteresis,
@@ -225,11 +173,8 @@ def _of_rises(numbers: Sequence[Number]) -> dict[str, object]:
 
 def _spreads(found: Found, cases_of: Sequence[str]) -> dict[str, float]:
     """By what share the largest of some cases exceeds the smallest: mean pin force and standard deviation."""
-    spreads = {}
-    for name in ("mean_pin_force", "std_pin_force"):
-        values = [found[name, case].value for case in cases_of]
-        spreads[name] = max(values) / min(values) - 1.0
-    return spreads
+    rows = {name: [found[name, case].value for case in cases_of] for name in (MEAN, STD)}
+    return {name: max(values) / min(values) - 1.0 for name, values in rows.items()}
 
 
 study = Study("contact_laws", __doc__, work, seconds=30.0, own_machine=True)
