@@ -111,7 +111,7 @@ def measured_all(
             if isinstance(measure, Versus):
                 ideal = results[ideal_of(case)]
                 number = compared(name, case, unit, run, ideal, measure.get, paper)
-                error = number.numerical_error + measure.missed(run, ideal)
+                error = number.numerical_error + (0.0 if run is ideal else measure.missed(run, ideal))
                 numbers.append(replace(number, numerical_error=error))
             else:
                 numbers.append(measured(name, case, unit, run, measure, paper))
@@ -135,10 +135,10 @@ def compared(
 ) -> Number:
     """A number of a run beside another one, with the same records; the errors of both add up.
 
-    Of a run beside itself what is the same at all steps has no error.
+    The differences of a run from itself are 0, the ratios 1, without any error.
     """
     here = run.estimate(lambda finer: measure(finer, finer if run is other else other), unit)
-    error = here.error
+    error = 0.0 if run is other and here.value in (0.0, 1.0) else here.error
     if run is not other:
         error += other.estimate(lambda finer: measure(run, finer), unit).error
     error += error_of_records(lambda n: measure(cast(Result, Thinned(run, n)), cast(Result, Thinned(other, n))))
