@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from difflib import get_close_matches
 from functools import lru_cache
 from importlib import import_module, resources
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
+from support_exudyn.files.toml.faults import nearest
 from support_exudyn.files.toml.reading import read_value
 from support_exudyn.files.toml.schema import Schemas, without
 from support_exudyn.files.toml.text import parsed, text_of
@@ -21,6 +21,7 @@ from support_exudyn.files.whole_file import missing_file
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.model.actuators import CylinderAndRod, OilColumn, RigidActuator
 from support_exudyn.model.machine import Machine
+from user_forces.values.names import meant
 from user_forces.values.places import keep_classes
 from user_forces.values.sourced import SourcedNumber
 from user_forces.values.value import InputError, short
@@ -125,11 +126,9 @@ def shipped(name: str) -> MachineData:
     Raises InputError if there is none of this name.
     """
     if name not in SHIPPED:
-        near = get_close_matches(name, SHIPPED, n=1)
-        meant = f"; did you mean {near[0]!r}?" if near else ""
         raise InputError(
             f"machine = {short(name)}: there is none of this name; allowed: a file that ends in .toml, "
-            f"or one of {', '.join(SHIPPED)}{meant}"
+            f"or one of {', '.join(SHIPPED)}; {meant(name, SHIPPED)}"
         )
     with resources.as_file(resources.files(__package__) / f"{name}.toml") as path:
         return load_machine(path)
@@ -198,6 +197,5 @@ def _kind(data: dict[str, Any]) -> str:
         raise InputError(f"kind: missing; it says what the machine is; {allowed}")
     kind = data["kind"]
     if not isinstance(kind, str) or kind not in FILES:
-        near = get_close_matches(kind, FILES, n=1) if isinstance(kind, str) else []
-        raise InputError(f"kind = {short(kind)}: {allowed}" + (f"; did you mean {near[0]!r}?" if near else ""))
+        raise InputError(f"kind = {short(kind)}: {nearest(str(kind), FILES)}")
     return kind

@@ -9,7 +9,6 @@ from support_exudyn.files.machines.read import SHIPPED, load_machine, read_machi
 from support_exudyn.files.scenarios.own_classes import without_places
 from support_exudyn.files.scenarios.short_forms import (
     DriveFile,
-    DriveMode,
     DrivesFile,
     ShortForms,
     read_machine_of,
@@ -24,7 +23,7 @@ from support_exudyn.files.toml.writing import table_of
 from support_exudyn.files.whole_file import missing_file, whole_file
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.model.actuators import ActuatorModel, CylinderAndRod
-from support_exudyn.model.drives.drive import Drive, Held
+from support_exudyn.model.drives.drive import Drive, Held, UniformSpeed
 from support_exudyn.model.guides import Guide, IdealGuide
 from support_exudyn.model.machine import Machine
 from support_exudyn.model.pins import IdealPin, Pin
@@ -244,7 +243,7 @@ def scenario_schema() -> dict[str, Any]:
     schemas.besides[Machine] = [{"type": "string", "description": about}]
     schemas.besides[Pin] = [_short(schemas.table(ShortPin)), _ideal(schemas, IdealPin)]
     schemas.besides[Guide] = [_short(schemas.table(ShortGuide)), _ideal(schemas, IdealGuide)]
-    schemas.besides[Drive] = [_short(schemas.table(DriveMode)), _short(schemas.table(DriveFile))]
+    schemas.besides[Drive] = [_mode(schemas), _short(schemas.table(DriveFile))]
     top = schemas.table(Scenario)
     properties = top["properties"]
     drives = _short(schemas.table(DrivesFile))["properties"]
@@ -266,6 +265,19 @@ def _ideal(schemas: Schemas, kind: type[Value]) -> dict[str, Any]:
     table = _short(schemas.table(kind))
     ideal = {"const": True, "description": "ideal, as all are that no table speaks of"}
     return {**table, "properties": {"ideal": ideal, **table["properties"]}, "required": ["ideal"]}
+
+
+def _mode(schemas: Schemas) -> dict[str, Any]:
+    table = _short(schemas.table(UniformSpeed))
+    said = "1: constant speed from rest, without transition (`UniformSpeed`); 2: a smooth inlet (`CubicStep`)."
+    mode = {"enum": [1, 2], "description": said}
+    about = "A stroke in one of the paper's drive modes, by default the stroke of the machine's file."
+    return {
+        **table,
+        "description": about,
+        "properties": {"mode": mode, **table["properties"]},
+        "required": ["mode"],
+    }
 
 
 def _actuators(schemas: Schemas) -> dict[str, Any]:

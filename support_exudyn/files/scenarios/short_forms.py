@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import replace
 from difflib import get_close_matches
 from functools import partial
 from pathlib import Path
 from typing import Any, Literal, TypeVar
-
-from pydantic import model_validator
 
 from support_exudyn.files.machines.read import SHIPPED, read_machine
 from support_exudyn.files.scenarios.drive_table import one_drive, read_drives
@@ -26,54 +23,13 @@ from support_exudyn.model.hydraulics.leg import HydraulicCylinder
 from support_exudyn.model.machine import Machine
 from support_exudyn.model.pins import IdealPin, Pin
 from user_forces.values.sourced import SourcedNumber
-from user_forces.values.units import ANGLES, LENGTHS, Metres, Seconds
-from user_forces.values.value import InputError, NonNegative, Positive, Real, Value, value
+from user_forces.values.units import ANGLES, LENGTHS
+from user_forces.values.value import InputError, Value, value
 
 S = TypeVar("S", bound=ShortContact)
 
 
-@value
-class DriveMode(Value):
-    """A stroke in one of the paper's drive modes.
-
-    Arguments:
-        mode: 1: constant speed from rest, without transition (`UniformSpeed`); 2: a smooth inlet (`CubicStep`).
-        stroke: [m]; if nothing is said the machine's, else that of `Stroke`; negative to lower.
-        start, end: of the stroke [s], those of `Stroke` if nothing is said; end > start >= 0.
-    """
-
-    mode: Literal[1, 2]
-    stroke: Metres[Real] | None = None
-    start: Seconds[NonNegative] = Stroke.start
-    end: Seconds[Positive] = Stroke.end
-
-    @model_validator(mode="after")
-    def _is_a_stroke(self) -> DriveMode:
-        if self.end <= self.start:
-            raise ValueError(f"end = {self.end} s: allowed: > start = {self.start} s")
-        return self
-
-    def drive(self, stroke: float | None = None) -> Stroke:
-        """The drive in full; stroke: of the machine's file [m], if this has none."""
-        kind = UniformSpeed if self.mode == 1 else CubicStep
-        chosen = stroke if self.stroke is None else self.stroke
-        whole = kind(start=self.start, end=self.end)
-        return whole if chosen is None else replace(whole, stroke=chosen)
-
-
-@value
-class DriveFile(Value):
-    """A displacement over time from a CSV file, whose first line names columns as in `time_s,extension_mm`.
-
-    Arguments:
-        table: path of the file, from the folder of the scenario's file on.
-        column: name of its column, without unit; may be left out if there is one besides the time.
-        between: how the points are joined: "smooth", or "linear", at constant speeds that jump.
-    """
-
-    table: str
-    column: str | None = None
-    between: Literal["smooth", "linear"] = TableDrive.between
+MODES: Mapping[Any, type[Stroke]] = {1: UniformSpeed, 2: CubicStep}
 
 
 @value
@@ -81,11 +37,25 @@ class DrivesFile(Value):
     """Drives of several actuators from one CSV file, `time_s,front_column_mm,rear_column_mm`.
 
     Arguments:
-        table, between: as of `DriveFile`; each of its columns drives the part of the machine by its name.
+        table: path of the file, from the folder of the scenario's file on; each of its columns drives the part
+            of the machine by its name.
+        between: how the points are joined: "smooth", or "linear", at constant speeds that jump.
     """
 
     table: str
     between: Literal["smooth", "linear"] = TableDrive.between
+
+
+@value
+class DriveFile(DrivesFile):
+    """A displacement over time from a CSV file, whose first line names columns as in `time_s,extension_mm`.
+
+    Arguments:
+        table: path of the file, from the folder of the scenario's file on.
+        column: name of its column, without unit; may be left out if there is one besides the time.
+    """
+
+    column: str | None = None
 
 
 def read_machine_of(
@@ -228,14 +198,8 @@ class ShortForms:
             return None
         if "type" in item:
             return FAILED if self._misfits(reader, item, place) else None
-        if "mode" in item and True in self._turning(place):
-            reader.faults.wrong((*place, "mode"), item["mode"], OF_CRANKS)
-            return FAILED
         if "mode" in item:
-            mode = reader.value(DriveMode, item, place)
-            if isinstance(mode, Failed) or self.data is None:
-                return FAILED
-            return mode.drive(self.data.stroke)
+            return self._mode(reader, item["mode"], {k: one for k, one in item.items() if k != "mode"}, place)
         if "table" in item:
             file = reader.value(DriveFile, item, place)
             if isinstance(file, Failed):
@@ -249,6 +213,17 @@ class ShortForms:
             place, f"says no mode, table or type; allowed: mode = 1 or 2, table = a CSV file, type: {kinds}"
         )
         return FAILED
+
+    def _mode(self, reader: Reader, mode: Any, item: Mapping[str, Any], place: Place) -> Any:
+        """A stroke in a drive mode of the paper, by default the stroke of the machine's file."""
+        kind = MODES.get(mode) if isinstance(mode, int) and not isinstance(mode, bool) else None
+        if kind is None or True in self._turning(place):
+            reader.faults.wrong((*place, "mode"), mode, "1, 2" if kind is None else OF_CRANKS)
+            return FAILED
+        if self._misfits(reader, {**item, "type": kind.__name__}, place) or self.data is None:
+            return FAILED
+        usual = kind() if self.data.stroke is None else kind(stroke=self.data.stroke)
+        return reader.value(kind, item, place, usual)
 
     def _misfits(self, reader: Reader, item: Mapping[str, Any], place: Place) -> bool:
         """Whether a key of a drive is in a unit that does not fit what it moves, which is noted."""

@@ -18,7 +18,6 @@ else:
 LARGEST_FILE = 50_000_000  # bytes
 TOO_DEEP = f"is nested too deep; allowed: {DEEPEST} levels"
 PLACE = re.compile(r" \(at line (\d+), column \d+\)$")  # after what the library says
-TWICE = re.compile(r"Cannot declare \((.*?),?\) twice")
 COMMA = re.compile(r"=\s*[-+]?\d+,\d+\s*(#.*)?$")  # a decimal comma
 
 
@@ -55,7 +54,7 @@ def parsed(text: str, where: str, named: bool = False) -> dict[str, Any]:
 
 
 def _reason(said: str, text: str, named: bool) -> str:
-    """The fault of a text, from what the library says: with the line, and twofold keys by their name.
+    """The fault of a text, from what the library says: its line, what is wrong, what is allowed.
 
     named: the line by its number only.
     """
@@ -64,17 +63,10 @@ def _reason(said: str, text: str, named: bool) -> str:
     number = int(place[1]) if place else len(lines)
     if named:
         return f"line {number}: is no TOML; allowed: TOML"
-    line = short(lines[number - 1].strip()) if 0 < number <= len(lines) else "''"
-    what = PLACE.sub("", said).removesuffix(" (at end of document)")
-    if what == "Cannot overwrite a value":
-        return f"line {number}: {line}: its key has been given before; allowed: once"
-    if twice := TWICE.match(what):
-        name = ".".join(re.findall(r"'([^']*)'", twice[1]))
-        return f"line {number}: {line}: the table {name} has been begun before; allowed: once"
-    if place is None:
-        return f"{said.replace('at end of document', f'at line {number}, the last')}; allowed: TOML"
-    comma = COMMA.search(lines[number - 1]) if number <= len(lines) else None
-    return f"line {number}: {line}: {what}; allowed: {'decimals after a point, as in 1.5' if comma else 'TOML'}"
+    line = lines[number - 1] if 0 < number <= len(lines) else ""
+    comma = COMMA.search(line)
+    allowed = "decimals after a point, as in 1.5" if comma else "TOML, with each key and each table once"
+    return f"line {number}: {short(line.strip())}: {PLACE.sub('', said)}; allowed: {allowed}"
 
 
 def _decimal(text: str) -> Decimal:
