@@ -18,6 +18,7 @@ from support_exudyn.model.loads.load import ActingLoad, AnyLoad
 from support_exudyn.model.pins import Pin
 from support_exudyn.model.spatial_linkage import SpatialLinkage
 from support_exudyn.scenario.scenario_data import ScenarioData
+from user_forces.values.names import unknown
 from user_forces.values.value import InputError, check_names
 
 TURNED = 1e-9  # least share by which a condition holds how a body turns
@@ -60,9 +61,7 @@ def _check_known(field: str, names: Collection[str], known: Collection[str], wha
     """Raise ValueError unless the machine has everything that a field of the scenario names."""
     for name in names:
         if name not in known:
-            raise ValueError(
-                f"{field}.{name}: the machine has no such {what}; allowed: {', '.join(known) or 'none'}"
-            )
+            raise ValueError(f"{field}.{name}: {unknown(what, name, known)}")
 
 
 def _check_point_masses(scenario: ScenarioData) -> None:

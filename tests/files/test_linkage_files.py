@@ -228,7 +228,11 @@ def test_every_shipped_machine_can_be_written_as_a_linkage(name: str, tmp_path: 
         ('at = "B"', 'at = "C"', "pins.B.at = 'C': bodies.coupler, which has a frame of its own, has no such"),
         ('motor = "crank"', 'motor = "crank"\nother = "rocker"', "cranks.motor, cranks.other: one drive too"),
         ('tip = ["coupler", "B"]', 'crank = ["coupler", "B"]', "traced_points.crank: bodies.crank has this"),
-        ("{ crank = 0 }", "{ krank = 0 }", "start.angle_deg.krank: there is no such body"),
+        (
+            "{ crank = 0 }",
+            "{ krank = 0 }",
+            "start.angle_deg.krank: unknown body 'krank'; did you mean 'crank'?",
+        ),
         ("length_mm = 400", "length_mm = 40", "does not close"),
         ('O = ["ground", "crank"]\n', "", "start.angle_deg"),
     ],
@@ -351,9 +355,9 @@ def test_springs_torques_and_forces_act_where_the_linkage_starts(tmp_path: Path)
         (
             'bodies = ["ground", "rocker"]\nstiff',
             'bodies = ["ground", "rock"]\nstiff',
-            "rock: there is no such body",
+            "rock: unknown body 'rock'; did you mean 'rocker'?",
         ),
-        ('body = "rocker"\ntorque', 'body = "rock"\ntorque', "torques.pull.body.rock: there is no such body"),
+        ('body = "rocker"\ntorque', 'body = "rock"\ntorque', "torques.pull.body.rock: unknown body 'rock'"),
         ("[torques.pull]", "[torques.push]", "forces.push: torques.push has this name"),
     ],
 )

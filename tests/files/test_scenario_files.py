@@ -194,7 +194,10 @@ def test_scenarios_are_read_as_they_were_written(data: st.DataObject) -> None:
         (TOP + 'accuracy = "best"', "a.toml: accuracy = 'best': allowed: 'draft', 'standard', 'reference', or"),
         (TOP + "step_ms = 500", "a.toml: step_ms = 500: allowed: > 0 and <= 100"),
         (TOP + "record_period_s = 6", "a.toml: record_period = 6.0 s: allowed: at most the duration, 5.0 s"),
-        (TOP + WITH_CLEARANCE.replace("rear_base", "rear"), "a.toml: pins.rear: the machine has no such pin"),
+        (
+            TOP + WITH_CLEARANCE.replace("rear_base", "rear"),
+            "a.toml: pins.rear: unknown pin 'rear'; did you mean 'rear_base'",
+        ),
         (TOP + WITH_CLEARANCE.replace("1.5", "70"), "a.toml: pins.rear_base: clearance_mm = 70"),
         (TOP + WITH_CLEARANCE + "law = 'Hertzz'", "a.toml: pins.rear_base.law = 'Hertzz': did you mean Hertz?"),
         (TOP + WITH_CLEARANCE + "law = 'Hertz'\nrestitution = 0.9", "a.toml: pins.rear_base: restitution"),

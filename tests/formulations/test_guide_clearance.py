@@ -358,7 +358,7 @@ def test_a_block_that_lies_on_its_wall_slides_as_coulomb_says(mu: float) -> None
 def test_what_does_not_fit_is_refused() -> None:
     guide = ClearanceGuide.simple(gaps=1e-3, block=BLOCK)
     scene = pair(FreePair(), guide, 0.01)
-    with pytest.raises(InputError, match=r"guides\.slot: the machine has no such guide; allowed: guide"):
+    with pytest.raises(InputError, match=r"guides\.slot: unknown guide 'slot'; allowed: guide"):
         replace(scene, guides={"slot": guide})
     with pytest.raises(InputError, match=r"guides\.guide: has a pin_radius; allowed: block"):
         replace(scene, guides={"guide": ClearanceGuide.simple(gaps=1e-3, pin_radius=0.01)})

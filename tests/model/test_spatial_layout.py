@@ -224,7 +224,7 @@ def scenario(**changes: object) -> Scenario:
             {"drives": {"front_column_left": CubicStep(start=0.1, end=0.5, stroke=0.01)}},
             "drives.front_column_left: is not the drive of front_column_right, .*allowed for a pair of rigid",
         ),
-        ({"actuators": {"front_column_left": cylinders_and_rods()["front_column"]}}, "no such actuator"),
+        ({"actuators": {"front_column_left": cylinders_and_rods()["front_column"]}}, "unknown actuator"),
         ({"channels": ("tip_middle.z",)}, "tip_middle"),
     ],
 )

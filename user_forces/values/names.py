@@ -54,3 +54,11 @@ def meant(name: Any, known: Iterable[str]) -> str:
         return "there are none"
     more = f" and {len(names) - NEAR} more" if len(names) > NEAR else ""
     return f"there are {', '.join(map(repr, names[:NEAR]))}{more}"
+
+
+def unknown(what: str, name: str, known: Iterable[str]) -> str:
+    """The message for a name that is not known: what it is of, the nearest names, and all that are allowed."""
+    names = list(known)
+    near = get_close_matches(name[:LETTERS], names, NEAR, LIKE)
+    guess = f"did you mean {' or '.join(map(repr, near))}? " if near else ""
+    return f"unknown {what} {name!r:.{LETTERS}}; {guess}allowed: {', '.join(names) or 'none'}"

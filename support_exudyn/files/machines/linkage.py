@@ -33,6 +33,7 @@ from support_exudyn.model.actuators import CylinderAndRod
 from support_exudyn.model.linkage import GROUND, Crank, Linkage, TracePoint
 from support_exudyn.model.loads.load import ActingLoad
 from support_exudyn.model.plane_geometry import distance
+from user_forces.values.names import unknown
 from user_forces.values.units import Metres, Radians, RadiansPerSecond
 from user_forces.values.value import InputError, Positive, Real, Value, Vector2, check_names, value
 
@@ -264,4 +265,4 @@ def _too_many(count: int) -> str:
 def _check_known(where: str, named: Iterable[str], known: Iterable[str], what: str) -> None:
     for name in named:
         if name not in known:
-            raise InputError(f"{where}.{name}: there is no such {what}; allowed: {', '.join(known) or 'none'}")
+            raise InputError(f"{where}.{name}: {unknown(what, name, known)}")

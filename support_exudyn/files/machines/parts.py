@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from pydantic import model_validator
 
+from support_exudyn.files.toml.faults import nearest
 from support_exudyn.model.actuators import CylinderAndRod
 from support_exudyn.model.linkage import Part, bar
 from user_forces.values.units import Kilograms, KilogramSquareMetres, Metres, Radians
@@ -18,7 +19,7 @@ def check_known(where: str, name: str, known: Iterable[str], what: str) -> None:
     """Raise InputError that names the place in the file unless a name is one of those that are known."""
     names = list(known)
     if name not in names:
-        raise InputError(f"{where} = {name!r}: {what}; allowed: {', '.join(names) or 'none'}")
+        raise InputError(f"{where} = {name!r}: {what}; {nearest(name, names)}")
 
 
 @value

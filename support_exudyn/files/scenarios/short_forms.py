@@ -22,6 +22,7 @@ from support_exudyn.model.guides import Guide, IdealGuide
 from support_exudyn.model.hydraulics.leg import HydraulicCylinder
 from support_exudyn.model.machine import Machine
 from support_exudyn.model.pins import IdealPin, Pin
+from user_forces.values.names import unknown
 from user_forces.values.sourced import SourcedNumber
 from user_forces.values.units import ANGLES, LENGTHS
 from user_forces.values.value import InputError, Value, value
@@ -119,6 +120,9 @@ OF_CRANKS = (
 )
 
 
+MACHINES_NAME = {"pins": "pins", "guides": "slides"}  # what a linkage calls the joints of a scenario
+
+
 class ShortForms:
     """Readers of the short forms.
 
@@ -174,6 +178,10 @@ class ShortForms:
                 reader.faults.wrong((*place, "ideal"), item["ideal"], allowed)
                 return FAILED
             return reader.value(ideal, {key: one for key, one in item.items() if key != "ideal"}, place)
+        known = () if self.data is None else getattr(self.data.machine.linkage(), MACHINES_NAME[place[0]])
+        if known and place[-1] not in known:
+            reader.faults.add(place, unknown(place[0].removesuffix("s"), place[-1], known))
+            return FAILED
         found = reader.value(short, item, place)
         if isinstance(found, Failed) or self.data is None:
             return FAILED
