@@ -86,10 +86,11 @@ class NotedEvidence(Evidence):
         """What was asked for, in words; cases are named unless they are those of `of_all`."""
         texts = []
         for name, row in self.asked.items():
-            named = (f"{case} {m.said(6)}" for case, m in row.items())
-            values = ", ".join(m.said(6) for m in row.values()) if [*row] == [*of_all] else "; ".join(named)
-            texts.append(f"{name.replace('_', ' ')}: {values} {unit(name)}".rstrip())
-        return " | ".join(texts)
+            named = (f"{m.said(5)} ({case})" for case, m in row.items())
+            values = (m.said(5) for m in row.values()) if [*row] == [*of_all] else named
+            what = " ".join(IN_WORDS.get(word, word) for word in name.split("_"))
+            texts.append(f"{what} {', '.join(values)} {unit(name)}".rstrip())
+        return "; ".join(texts)
 
     @property
     def largest_error(self) -> float | None:
@@ -98,6 +99,7 @@ class NotedEvidence(Evidence):
         return max((m.error / abs(m.value) if m.value else math.inf for m in every_one), default=None)
 
 
+IN_WORDS = {"rms": "RMS fluctuation of", "likeness": "correlation of trends of", "std": "standard deviation of"}
 UNITS = {"force": "N", "speed": "deg/s", "acceleration": "deg/s^2", "impulse": "N s", "tip": "mm"}
 
 

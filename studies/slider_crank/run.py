@@ -14,10 +14,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from studies.common.numbers import Found, Number, by_case, cell, measured, off, printed
+from studies.common.numbers import Found, Measures, by_case, cell, measured_all, off, printed
 from studies.common.options import Options
 from studies.common.panels import letters
-from studies.common.rise import Crest, onset
+from studies.common.rise import Crest, Measure, onset
 from studies.common.runs import impacts, run_with_errors
 from studies.common.study import Study, StudyOutcome
 from studies.common.words import text_table
@@ -44,6 +44,7 @@ BEARING = JournalBearing(bore_radius=0.01, clearance=0.0005)
 STEEL = Material(name="steel", elastic_modulus=207e9, poisson_ratio=0.3, density=7800.0)
 IDEAL, SMOOTH, DRY = "ideal", "no friction", "friction 0.03"
 ONSETS = 12  # reported
+PEAK = "largest_pin_force_any_step"
 ALIKE = 1e-3  # relative, of impacts that are said to agree
 MILLIMETRES = DisplayUnit("mm", 1e3)
 # an independent solution with two free coordinates and located onsets: time [us], initial impact velocity [m/s]
@@ -89,24 +90,23 @@ def scenarios() -> dict[str, Scenario]:
 # --- measures ---
 
 
-def measure(results: Mapping[str, Result]) -> list[Number]:
-    """All numbers of the study."""
-    numbers = [
-        measured(name, IDEAL, unit, results[IDEAL], Crest(channel, begin=0.0), known)
-        for name, (channel, unit, known) in IDEAL_REFERENCE.items()
-    ]
-    for case in (SMOOTH, DRY):
-        result = results[case]
-        numbers.append(
-            measured("largest_pin_force_any_step", case, "N", result, lambda r: float(r.largest_force[PIN]))
-        )
-        for n in range(min(ONSETS, impacts(result, PIN))):
-            known = REFERENCE[n] if case == SMOOTH and n < len(REFERENCE) else (None, None)
-            numbers += [
-                measured(f"onset_{n + 1}_time", case, "us", result, onset(PIN, n, "time", 1e6), known[0]),
-                measured(f"onset_{n + 1}_speed", case, "m/s", result, onset(PIN, n, "speed"), known[1]),
-            ]
-    return numbers
+def measures(result: Result) -> Measures:
+    """Unit and measure of every number of a case, by name: of the ideal machine, or of impacts."""
+    if not result.scenario.clearance_pins:
+        known = IDEAL_REFERENCE.items()
+        return {name: (unit, Crest(channel, begin=0.0)) for name, (channel, unit, _) in known}
+    found: dict[str, tuple[str, Measure]] = {PEAK: ("N", lambda run: float(run.largest_force[PIN]))}
+    for n in range(min(ONSETS, impacts(result, PIN))):
+        found[f"onset_{n + 1}_time"] = ("us", onset(PIN, n, "time", 1e6))
+        found[f"onset_{n + 1}_speed"] = ("m/s", onset(PIN, n, "speed"))
+    return found
+
+
+KNOWN = {  # by name and case
+    **{(name, IDEAL): value for name, (_, _, value) in IDEAL_REFERENCE.items()},
+    **{(f"onset_{n}_time", SMOOTH): time for n, (time, _) in enumerate(REFERENCE, 1)},
+    **{(f"onset_{n}_speed", SMOOTH): speed for n, (_, speed) in enumerate(REFERENCE, 1)},
+}
 
 
 # --- figure ---
@@ -150,14 +150,8 @@ def agreement_table(found: Found, known: Sequence[int]) -> Sheet:
     for n in known:
         time, speed = (found[f"onset_{n}_{what}", SMOOTH] for what in ("time", "speed"))
         rows.append((str(n), cell(time), printed(time), cell(speed), printed(speed)))
-    header = (
-        "impact",
-        "time [µs]",
-        "independent solution",
-        "initial impact velocity [m/s]",
-        "independent solution",
-    )
-    return text_table(header, rows)
+    known_one = "independent solution"
+    return text_table(("impact", "time [µs]", known_one, "initial impact velocity [m/s]", known_one), rows)
 
 
 # --- the study ---
@@ -167,7 +161,7 @@ def work(chosen: Options) -> StudyOutcome:
     """A revolution of each machine, its impacts beside the independent solution."""
     cases = scenarios()
     results = run_with_errors(cases, chosen)
-    numbers = measure(results)
+    numbers = measured_all(results, measures, papers=KNOWN)
     found = by_case(numbers)
     known = [n for n in range(1, len(REFERENCE) + 1) if (f"onset_{n}_time", SMOOTH) in found]
     words = {
