@@ -22,7 +22,6 @@ Mask = npt.NDArray[np.bool_]
 DEGREES = 180.0 / np.pi
 TREND_WINDOW = 0.1  # [s]: slower is the trend, faster is fluctuation; the paper's contact shakes at 20 Hz
 WINDOW_SHARE = 0.05  # of the motion: the window of a shorter one than the paper's
-EDGE = TREND_WINDOW  # left out at both ends of the paper's rise, where no window fits [s]
 THIRDS = {"early": (0.05, 0.3), "middle": (0.375, 0.625), "late": (0.7, 0.95)}  # of the rise, less edges
 
 
@@ -255,5 +254,3 @@ class Watched:
 PAPER = Watched("rear_base", "rear_link", 3.0, 5.0)  # the paper's pin and rise
 FORCE, SPEED, ACCELERATION = PAPER.force, PAPER.speed, PAPER.acceleration
 START, END, STAGES = PAPER.start, PAPER.end, PAPER.stages
-in_rise, rms_fluctuation, likeness = PAPER.in_rise, PAPER.rms_fluctuation, PAPER.likeness
-stage_mean, departure = PAPER.stage_mean, PAPER.departure

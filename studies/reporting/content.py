@@ -51,25 +51,11 @@ class ReportSection:
         return ReportSection(folder, chapter, summary.wall_s, summary.versions, live)
 
 
-@dataclass(frozen=True)
-class AroundChapters:
-    """What the report says around its chapters.
+def around_chapters(sections: Sequence[ReportSection]) -> dict[str, object]:
+    """What is said around these chapters; the paper's machine is left out if none is about it.
 
-    title, asked: of all. made_at: date and time. notes, data: on the assumptions. commands: what each does.
+    Returns title and question of all, date and time, notes and data on the assumptions, times and versions.
     """
-
-    title: str
-    asked: str
-    made_at: str
-    notes: tuple[str, ...]
-    data: tuple[Sheet, ...]
-    commands: tuple[tuple[str, str], ...]
-    times: Sheet
-    versions: Sheet
-
-
-def around_chapters(sections: Sequence[ReportSection]) -> AroundChapters:
-    """What is said around these chapters; the paper's machine is left out if none is about it."""
     support = reference_support()
     machines = tuple(dict.fromkeys(one.chapter.machine for one in sections if one.chapter.machine))
     contacts = tuple(dict.fromkeys(one.chapter.contact for one in sections if one.chapter.contact))
@@ -83,30 +69,18 @@ def around_chapters(sections: Sequence[ReportSection]) -> AroundChapters:
         "platform": platform.platform(),
     })  # fmt: skip
     title = next(iter(words))
-
-    def sheet(name: str, table: Sheet) -> Sheet:
-        return titled(table, name, words)
-
     data = tables(support) if of_paper else {}
-    return AroundChapters(
-        title=title,
-        asked=" ".join(words[title]),
-        made_at=provenance()["made_at"].replace("T", " ").removesuffix("+00:00") + " UTC",
-        notes=tuple(words["Notes"]),
-        data=tuple(sheet(name, table) for name, table in data.items()),
-        commands=COMMANDS,
-        times=sheet("times", _times(sections)),
-        versions=sheet("versions", _versions(sections)),
-    )
-
-
-COMMANDS = (
-    ("python -m pip install -e .", "install, from the project's folder"),
-    ("python -m studies", "run the studies of the paper's answer and write this report"),
-    ("python -m studies NAME", "run one study, by its name in the table below"),
-    ("python -m studies --all", "run all studies"),
-    ("python -m studies.report", "write this report again from the results that are there"),
-)
+    sheets = {"times": _times(sections), "versions": _versions(sections), **data}
+    shown = {name: titled(table, name, words) for name, table in sheets.items()}
+    return {
+        "title": title,
+        "asked": " ".join(words[title]),
+        "made_at": provenance()["made_at"].replace("T", " ").removesuffix("+00:00") + " UTC",
+        "notes": words["Notes"],
+        "data": [shown[name] for name in data],
+        "times": shown["times"],
+        "versions": shown["versions"],
+    }
 
 
 def _times(sections: Sequence[ReportSection]) -> Sheet:

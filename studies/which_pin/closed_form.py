@@ -253,11 +253,10 @@ def loads(pin: ClearancePin) -> dict[str, UnderLoad]:
     }
     extension = np.linspace(0.0, STROKE, PLACES)
     along = stands(support, Steady(rate=CREEP), (extension / CREEP).tolist())
-    return {name: _under(pin, along, extension, press) for name, press in presses.items()}
-
-
-def _under(pin: ClearancePin, along: list[Stand], extension: Matrix, presses: tuple[Press, ...]) -> UnderLoad:
-    pins = dict.fromkeys(PINS, pin)
-    found = [shifts(stand, pins, presses) for stand in along]
-    thrust = min(-float(forces(stand, {}, presses)[2 * len(PINS) :].max()) for stand in along)
-    return UnderLoad(extension, {name: np.array([one[name][0] for one in found]) for name in PINS}, thrust)
+    pins, found = dict.fromkeys(PINS, pin), {}
+    for load, press in presses.items():
+        moved = [shifts(stand, pins, press) for stand in along]
+        thrust = min(-float(forces(stand, {}, press)[2 * len(PINS) :].max()) for stand in along)
+        shift = {name: np.array([one[name][TIP_X] for one in moved]) for name in PINS}
+        found[load] = UnderLoad(extension, shift, thrust)
+    return found

@@ -205,5 +205,5 @@ def test_the_angular_velocity_keeps_its_course(outs: tuple[Path, Path]) -> None:
         Result.load(outs[1] / "runs" / f"{file_name(case)}.h5") for case in (ideal_name(0.25), *RUBBED)
     )
     for run in others:  # an RMS fluctuation of 1 % of the range, filtered
-        assert rise.likeness(run, ideal, rise.SPEED) > 0.9999
-        assert rise.likeness(run, ideal, rise.FORCE) > 0.99
+        assert rise.PAPER.likeness(run, ideal, rise.SPEED) > 0.9999
+        assert rise.PAPER.likeness(run, ideal, rise.FORCE) > 0.99

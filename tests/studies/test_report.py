@@ -115,6 +115,12 @@ class Page(HTMLParser):
         return [text for name, text in self.texts if name == tag]
 
 
+def test_a_chapter_is_read_back_as_it_was(tmp_path: Path) -> None:
+    whole = chapter("clearance_influence", HOSTILE).model_copy(update={"claims": chapter("claims").claims})
+    assert whole.save(tmp_path) == tmp_path / "chapter.json"
+    assert Chapter.load(tmp_path) == whole
+
+
 @pytest.fixture(scope="module")
 def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
     out = tmp_path_factory.mktemp("results")

@@ -12,7 +12,7 @@ import pytest
 from studies.common import rise
 
 Series = npt.NDArray[np.float64]
-BEGIN, END = rise.START + rise.EDGE, rise.END - rise.EDGE
+BEGIN, END = rise.START + rise.PAPER.window, rise.END - rise.PAPER.window
 PERIODS = (1e-3, 2e-3)  # of the records [s]
 
 
@@ -55,19 +55,21 @@ def test_the_ripple_of_a_sine_on_a_slope_is_known(period: float, frequency: floa
     run = Record(period, {"x": lambda time: 50.0 - 7.0 * time + sine(time)})
     left = (1.0 - response(frequency, period)) * rms(sine(run.time[rise.between(run, BEGIN, END)]))
     # a slope is its own moving mean; rounding of the moving sum over values of 50
-    assert rise.rms_fluctuation(run, run["x"]) == pytest.approx(left, abs=1e-11)
+    assert rise.PAPER.rms_fluctuation(run, run["x"]) == pytest.approx(left, abs=1e-11)
 
 
 def test_only_what_is_between_the_times_counts() -> None:
     run = Record(courses={"x": lambda t: np.where((t > 3.7) & (t < 4.3), np.sin(2 * np.pi * 20.0 * t), 0.0)})
-    shaking = rise.rms_fluctuation(run, run["x"], *rise.STAGES["middle"])
+    shaking = rise.PAPER.rms_fluctuation(run, run["x"], *rise.STAGES["middle"])
     assert shaking == pytest.approx(np.sqrt(0.5), rel=0.02)  # one record in the window is more than two periods
-    assert rise.rms_fluctuation(run, run["x"], *rise.STAGES["early"]) <= 1e-15  # rounding of sums of zeros
     assert (
-        rise.rms_fluctuation(run, run["x"], *rise.STAGES["late"]) <= 1e-13
+        rise.PAPER.rms_fluctuation(run, run["x"], *rise.STAGES["early"]) <= 1e-15
+    )  # rounding of sums of zeros
+    assert (
+        rise.PAPER.rms_fluctuation(run, run["x"], *rise.STAGES["late"]) <= 1e-13
     )  # of what the moving sum has passed
     # six of 18 tenths of a second shake, ten records of 600 more or less where the trend sees the borders
-    assert rise.rms_fluctuation(run, run["x"]) == pytest.approx(np.sqrt(0.5 / 3.0), rel=0.05)
+    assert rise.PAPER.rms_fluctuation(run, run["x"]) == pytest.approx(np.sqrt(0.5 / 3.0), rel=0.05)
 
 
 # --- likeness ---
@@ -77,11 +79,13 @@ def test_the_same_course_is_alike_whatever_its_size_and_shaking() -> None:
     plain = Record(courses={"x": lambda t: np.sin(t)})
     other = Record(courses={"x": lambda t: 5.0 - 3.0 * np.sin(t)})
     shaken = Record(courses={"x": lambda t: 2.0 * np.sin(t) + 0.3 * np.sin(2 * np.pi * 20.0 * t)})
-    assert rise.likeness(plain, plain, "x") == pytest.approx(1.0, abs=1e-12)  # rounding
-    assert rise.likeness(plain, other, "x") == pytest.approx(-1.0, abs=1e-12)
+    assert rise.PAPER.likeness(plain, plain, "x") == pytest.approx(1.0, abs=1e-12)  # rounding
+    assert rise.PAPER.likeness(plain, other, "x") == pytest.approx(-1.0, abs=1e-12)
     # of the shaking the trend keeps 1 %, 0.003, of a course whose standard deviation is 0.66
-    assert rise.likeness(plain, shaken, "x") == pytest.approx(1.0, abs=1e-4)
-    assert rise.likeness(shaken, plain, "x") == pytest.approx(rise.likeness(plain, shaken, "x"), abs=1e-12)
+    assert rise.PAPER.likeness(plain, shaken, "x") == pytest.approx(1.0, abs=1e-4)
+    assert rise.PAPER.likeness(shaken, plain, "x") == pytest.approx(
+        rise.PAPER.likeness(plain, shaken, "x"), abs=1e-12
+    )
 
 
 # --- means, departures, angles ---
@@ -91,14 +95,14 @@ def test_the_same_course_is_alike_whatever_its_size_and_shaking() -> None:
 def test_the_mean_of_a_stage_is_of_magnitudes(stage: str) -> None:
     begin, end = rise.STAGES[stage]
     run = Record(courses={"x": lambda t: -2.0 * t, "y": lambda t: np.sign(t - 0.5 * (begin + end) + 1e-6)})
-    assert rise.stage_mean(run, "x", stage) == pytest.approx(begin + end, rel=1e-12)  # rounding
-    assert rise.stage_mean(run, "y", stage) == 1.0
+    assert rise.PAPER.stage_mean(run, "x", stage) == pytest.approx(begin + end, rel=1e-12)  # rounding
+    assert rise.PAPER.stage_mean(run, "y", stage) == 1.0
 
 
 def test_a_departure_is_taken_record_by_record_in_the_rise() -> None:
     with_clearance = Record(courses={"x": lambda t: np.where(t < 3.0, 99.0, t**2)})
     ideal = Record(courses={"x": lambda t: np.where(t < 3.0, -1.0, t)})
-    rising = rise.departure(with_clearance, ideal, "x")
+    rising = rise.PAPER.departure(with_clearance, ideal, "x")
     time = np.linspace(3.0, 5.0, 2001)
     np.testing.assert_allclose(rising, time**2 - time, rtol=1e-12)  # rounding of the times
 
