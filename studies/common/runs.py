@@ -9,11 +9,9 @@ from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 
-from rich.console import Console
-from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
-
 from studies.common.options import Options
 from support_exudyn import Failure, Result, Scenario, SimulationError
+from support_exudyn.commands.command_line import shown_progress
 from support_exudyn.sweeps.key import key
 from support_exudyn.sweeps.parallel_runs import run_all
 from support_exudyn.sweeps.workers import Workers
@@ -118,7 +116,5 @@ def _made(runs: Mapping[str, Scenario], workers: int | Workers, files: Mapping[s
 @contextmanager
 def bar(name: str) -> Iterator[Callable[[Sequence[float]], None]]:
     """One progress bar for many jobs: yields the function that takes the completed share of each job."""
-    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.percentage:3.0f} %"))
-    with Progress(*columns, TimeRemainingColumn(), console=Console(stderr=True)) as bars:
-        task = bars.add_task(name, total=1.0)
-        yield lambda shares: bars.update(task, completed=sum(shares) / max(1, len(shares)))
+    with shown_progress(name) as show:
+        yield lambda shares: show(sum(shares) / max(1, len(shares)))
