@@ -44,7 +44,7 @@ class Measured:
         larger = self.above(limit)
         return None if larger is None else not larger
 
-    def said(self, digits: int = 4) -> str:
+    def format(self, digits: int = 4) -> str:
         """To so many significant digits, fewer if the error does not leave them."""
         size = max(abs(self.value), self.error)
         if size == 0.0:
@@ -82,12 +82,12 @@ class NotedEvidence(Evidence):
         found = self.asked.setdefault(name, {})[case] = super().__getitem__(place)
         return found
 
-    def said(self, of_all: Sequence[str]) -> str:
+    def describe(self, of_all: Sequence[str]) -> str:
         """What was asked for, in words; cases are named unless they are those of `of_all`."""
         texts = []
         for name, row in self.asked.items():
-            named = (f"{m.said(5)} ({case})" for case, m in row.items())
-            values = (m.said(5) for m in row.values()) if [*row] == [*of_all] else named
+            named = (f"{m.format(5)} ({case})" for case, m in row.items())
+            values = (m.format(5) for m in row.values()) if [*row] == [*of_all] else named
             what = " ".join(IN_WORDS.get(word, word) for word in name.split("_"))
             texts.append(f"{what} {', '.join(values)} {unit(name)}".rstrip())
         return "; ".join(texts)

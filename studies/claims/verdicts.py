@@ -155,7 +155,7 @@ def rule(claim: Claim, reference: Evidence, first: Machines, second: Machines = 
         ours,
         counted,
         count(judge, second),
-        noted.said(CLEARANCES),
+        noted.describe(CLEARANCES),
         noted.largest_error,
         tuple(AtThreshold(at, count(judge.at(at), first)) for at in shown if isinstance(judge, Varied)),
         dependence(decided) if counted.kind == IN_PART else "",

@@ -44,10 +44,10 @@ from studies.common.runs import impacts
 from studies.common.study import Study, StudyOutcome
 from studies.common.subject import Subject, paper_subject
 from studies.common.witness import Witness, run_on_exudyn, with_errors
-from studies.common.words import Tile, text_table
+from studies.common.words import text_table
 from support_exudyn import Result, Scenario
 from support_exudyn.postprocessing.figures.linkage_drawing import machine_drawing
-from support_exudyn.postprocessing.page.pieces import Sheet
+from support_exudyn.postprocessing.page.pieces import KeyNumber, Sheet
 
 PIN = paper_machine.CLEARANCE_PIN
 PAPERS = {  # printed values by name and case; the paper has friction, though with data that it does not print
@@ -275,12 +275,12 @@ def size_tables(subject: Subject, numbers: Sequence[Number]) -> dict[str, Sheet]
     }
 
 
-def tiles(found: Found) -> tuple[Tile, ...]:
+def tiles(found: Found) -> tuple[KeyNumber, ...]:
     """The first screen of the report: the ideal pin against 1.5 mm, both with the same friction."""
 
-    def tile(title: str, ideal: str, name: str, change: str) -> Tile:
+    def tile(title: str, ideal: str, name: str, change: str) -> KeyNumber:
         tight, loose = (short(found[key], 1e-3, "kN") for key in ((ideal, IDEAL_DRY), (name, DRY)))
-        return Tile(title, tight, loose, change)
+        return KeyNumber(title, loose, tight, change)
 
     def along(name: str) -> str:
         return f"pin along its length: {short(found[name, contact_case(CYLINDERS)], 1e-3, 'kN')}"
@@ -295,7 +295,7 @@ def tiles(found: Found) -> tuple[Tile, ...]:
     return (
         tile("mean force in the pin", mean, mean, f"{against(found[mean, DRY], ideal_mean)}; {friction}"),
         tile("peak force", "largest_pin_force", fall, f"{times}; {alone}; {along(fall)}"),
-        Tile("canopy tip, mean place", "0", short(shift), f"{towards}, against the ideal pin"),
+        KeyNumber("canopy tip, mean place", short(shift), "0", f"{towards}, against the ideal pin"),
         tile("fluctuation of the force", ripple, ripple, f"RMS, faster than 0.1 s; {along(ripple)}"),
     )
 

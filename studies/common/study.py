@@ -18,14 +18,14 @@ from studies.common.numbers import NUMBERS, Number, number_rows, write_summary
 from studies.common.options import Options
 from studies.common.runs import file_name, save_run
 from studies.common.witness import Witness
-from studies.common.words import Chapter, JudgedClaim, Tile, Words, text_table, without_references
+from studies.common.words import Chapter, JudgedClaim, Words, text_table, without_references
 from support_exudyn import Result
 from support_exudyn.commands.command_line import answered, say
 from support_exudyn.files.whole_file import remove_leftovers, whole_file, writing_alone
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.figures.drawing_data import save_drawing_data
 from support_exudyn.postprocessing.page.live import of_drawing
-from support_exudyn.postprocessing.page.pieces import HARD_SPACE, Sheet, unbroken
+from support_exudyn.postprocessing.page.pieces import HARD_SPACE, KeyNumber, Sheet, unbroken
 from support_exudyn.simulation.at_start import be_interruptible
 from support_exudyn.sweeps.workers import Workers
 from user_forces.values.value import InputError
@@ -40,7 +40,8 @@ class StudyOutcome:
     numbers: of summary.json. words: what the sentences of words.md.j2 are filled with, by name. figures,
     tables: by the name of their files. runs: by that of their case. counts: of its own, for the summary. live:
     which panels of a figure are time series that the report lets readers look into, by the figure's name.
-    tiles, claims: see `studies.common.words`. witness: of a study whose runs are those of Exudyn.
+    tiles: numbers on the first screen of the report. claims: see `JudgedClaim`. witness: of a study whose runs
+    are those of Exudyn.
     """
 
     numbers: Sequence[Number]
@@ -50,7 +51,7 @@ class StudyOutcome:
     runs: Mapping[str, Result] = field(default_factory=dict)
     counts: Mapping[str, int] = field(default_factory=dict)
     live: Mapping[str, LivePanels] = field(default_factory=dict)
-    tiles: Sequence[Tile] = ()
+    tiles: Sequence[KeyNumber] = ()
     claims: Sequence[JudgedClaim] = ()
     witness: Witness | None = None
 
@@ -102,7 +103,7 @@ class Study:
             words, tables, found.figures, found.tiles, found.claims
         )
         if found.witness is not None:
-            chapter, sheets = witness.told(chapter, sheets, numbers)
+            chapter, sheets = witness.with_method(chapter, sheets, numbers)
         for name, sheet in sheets.items():
             save_table(chosen.out / f"{name}.csv", sheet)
         chapter.save(chosen.out)

@@ -143,7 +143,7 @@ def verdict(numbers: Sequence[Number]) -> str:
     return f"{said} Beyond it: {'; '.join(beyond)}." if beyond else said
 
 
-def told(
+def with_method(
     chapter: Chapter, sheets: Mapping[str, Sheet], numbers: Sequence[Number]
 ) -> tuple[Chapter, dict[str, Sheet]]:
     """A chapter and its tables with engine and method in every caption, and with what the witness says."""

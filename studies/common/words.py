@@ -25,7 +25,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 from studies.common import numbers
 from studies.common.subject import Subject
 from support_exudyn.files.whole_file import contents, whole_file
-from support_exudyn.postprocessing.page.pieces import Sheet
+from support_exudyn.postprocessing.page.pieces import KeyNumber, Sheet
 from user_forces.values.value import InputError
 
 ALL_NUMBERS = "All numbers of the study; the number behind ± is the numerical error"
@@ -83,7 +83,7 @@ class Words:
         told: Mapping[str, object],
         tables: Mapping[str, Sheet],
         figures: Collection[str],
-        tiles: Sequence[Tile] = (),
+        tiles: Sequence[KeyNumber] = (),
         claims: Sequence[JudgedClaim] = (),
     ) -> tuple[Chapter, dict[str, Sheet]]:
         """The study as a chapter of the report, and all tables by name, those that are not in it among them.
@@ -154,16 +154,6 @@ class Picture:
 
 
 @dataclass(frozen=True)
-class Tile:
-    """A number on the first screen: its name, the values with the ideal pin and with clearance, the change."""
-
-    name: str
-    ideal: str
-    with_clearance: str
-    change: str
-
-
-@dataclass(frozen=True)
 class JudgedClaim:
     """A statement of the paper and the verdict on it.
 
@@ -202,7 +192,7 @@ class Chapter(BaseModel):
     sheets: tuple[Sheet, ...]
     answer: str = ""
     numbers: tuple[str, ...] = ()
-    tiles: tuple[Tile, ...] = ()
+    tiles: tuple[KeyNumber, ...] = ()
     claims: tuple[JudgedClaim, ...] = ()
     machine: str = ""
     contact: str = ""

@@ -23,7 +23,6 @@ from studies.reporting.content import ReportSection, around_chapters
 from support_exudyn.postprocessing.page import live_html
 from support_exudyn.postprocessing.page.pieces import (
     FileLink,
-    KeyNumber,
     Sheet,
     ShownFigure,
     ShownTable,
@@ -169,12 +168,6 @@ class Arrangement:
         return self._figure(PAGE, found[0]) if found else None
 
     @property
-    def tiles(self) -> list[KeyNumber]:
-        """The numbers of the first screen."""
-        tiles = self.leading.tiles if self.leading is not None else ()
-        return [KeyNumber(one.name, one.with_clearance, one.ideal, one.change) for one in tiles]
-
-    @property
     def sentences(self) -> list[tuple[str, str]]:
         """The effect of clearance, from the leading study; how sure that is, from the claims; or others.
 
@@ -296,7 +289,7 @@ class Arrangement:
             sheet=replace(sheet, title=linked(sheet.title), rows=cells, caption=caption, name=""),
             anchor=anchor(name),
             label=self.places.known[name][1] + ".",
-            links=self._files(section.folder, sheet.name, "csv") if sheet.name else (),
+            links=self._files(section.folder, sheet.name, "csv"),
         )
 
     def _files(self, folder: Path, stem: str, *endings: str) -> tuple[FileLink, ...]:
@@ -308,8 +301,5 @@ class Arrangement:
 
 
 def _names(chapter: Chapter, parts: Sequence[Picture | Sheet]) -> list[str]:
-    """The parts as "study/stem" or "study/name"; a table without a name is called by its place."""
-    stems = [
-        one.stem if isinstance(one, Picture) else one.name or f"table-{n}" for n, one in enumerate(parts, 1)
-    ]
-    return [f"{chapter.study}/{stem}" for stem in stems]
+    """The parts as "study/stem" or "study/name"."""
+    return [f"{chapter.study}/{one.stem if isinstance(one, Picture) else one.name}" for one in parts]

@@ -109,7 +109,7 @@ def test_rows_as_known() -> None:
 @example(value=-0.0004, error=0.003, digits=3)
 @example(value=9.9996, error=0.001, digits=4)
 def test_no_digit_is_said_that_the_error_does_not_leave(value: float, error: float, digits: int) -> None:
-    text = Measured(value, error).said(digits)
+    text = Measured(value, error).format(digits)
     place = math.floor(math.log10(error))  # of the error's first digit
     decimals = len(text.partition(".")[2])
     assert decimals <= max(0, -place)

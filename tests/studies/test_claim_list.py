@@ -47,8 +47,8 @@ def test_every_judge_finds_what_it_asks_for_in_real_measures(claim: Claim, refer
     assert claim.judge is not None
     noted = NotedEvidence(reference.measures)
     assert claim.judge(noted) in (True, False, None)
-    assert re.search(r"\d", noted.said(CLEARANCES))
-    assert "nan" not in noted.said(CLEARANCES)
+    assert re.search(r"\d", noted.describe(CLEARANCES))
+    assert "nan" not in noted.describe(CLEARANCES)
 
 
 def test_closed_forms_are_judged_to_all_digits_printed(monkeypatch: pytest.MonkeyPatch) -> None:

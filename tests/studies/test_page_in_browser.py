@@ -23,9 +23,8 @@ from selenium.webdriver.common.by import By
 
 from studies import report
 from studies.catalogue import STUDIES
-from studies.common.words import Tile
 from support_exudyn.postprocessing.page.live import LiveCurve, LiveFigure, LivePanel
-from support_exudyn.postprocessing.page.pieces import Sheet
+from support_exudyn.postprocessing.page.pieces import KeyNumber, Sheet
 from tests.studies.test_report import chapter, put
 
 pytestmark = pytest.mark.slow  # seconds of a browser
@@ -59,11 +58,13 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
     for name in STUDIES:
         leads = name == "clearance_influence"
         tiles = (
-            Tile("mean force", "51.3 kN ± 0.002 %", "52.7 kN ± 0.003 %", "+2.7 %"),
-            Tile("largest force", "60.7 kN ± 0.003 %", "443 kN ± 0.1 %", "8 times, in the fall into the bore"),
-            Tile("tip of the canopy", "0", "-3.62 mm ± 0.01 %", "to the rear"),
-            Tile(
-                "fluctuation of the force", "0.006 kN ± 4 %", "1.02 kN ± 0.2 %", "of what is faster than 0.1 s"
+            KeyNumber("mean force", "52.7 kN ± 0.003 %", "51.3 kN ± 0.002 %", "+2.7 %"),
+            KeyNumber(
+                "largest force", "443 kN ± 0.1 %", "60.7 kN ± 0.003 %", "8 times, in the fall into the bore"
+            ),
+            KeyNumber("tip of the canopy", "-3.62 mm ± 0.01 %", "0", "to the rear"),
+            KeyNumber(
+                "fluctuation of the force", "1.02 kN ± 0.2 %", "0.006 kN ± 4 %", "of what is faster than 0.1 s"
             ),
         )
         of = chapter(name).model_copy(

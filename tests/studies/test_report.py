@@ -15,9 +15,9 @@ from PIL import Image
 from studies import report
 from studies.catalogue import STUDIES
 from studies.common.numbers import NUMBERS
-from studies.common.words import REFERENCE, Chapter, JudgedClaim, Picture, Tile
+from studies.common.words import REFERENCE, Chapter, JudgedClaim, Picture
 from support_exudyn.postprocessing.page.live import LiveCurve, LiveFigure, LivePanel
-from support_exudyn.postprocessing.page.pieces import Sheet
+from support_exudyn.postprocessing.page.pieces import KeyNumber, Sheet
 from support_exudyn.simulation.provenance import versions
 
 HOSTILE = "<script>alert(1)</script> | \"quoted\" & '<img src=http://x.example/>'\n- new line"
@@ -62,7 +62,9 @@ def chapter(name: str, text: str = "A sentence.") -> Chapter:
         ),
         answer=f"Answer of {name} [@key]. Second sentence [@clearance_influence/all]. Third [@nowhere].",
         numbers=(f"number of {name}: 1.5 ± 0.1 mm",),
-        tiles=(Tile("peak", "55 kN", "443 ± 2 kN", "8 times"), Tile(text, "1", "2", text)) if leads else (),
+        tiles=(KeyNumber("peak", "443 ± 2 kN", "55 kN", "8 times"), KeyNumber(text, "2", "1", text))
+        if leads
+        else (),
         claims=claims if name == "claims" else (),
     )
 
