@@ -120,9 +120,6 @@ OF_CRANKS = (
 )
 
 
-MACHINES_NAME = {"pins": "pins", "guides": "slides"}  # what a linkage calls the joints of a scenario
-
-
 class ShortForms:
     """Readers of the short forms.
 
@@ -178,17 +175,17 @@ class ShortForms:
                 reader.faults.wrong((*place, "ideal"), item["ideal"], allowed)
                 return FAILED
             return reader.value(ideal, {key: one for key, one in item.items() if key != "ideal"}, place)
-        known = () if self.data is None else getattr(self.data.machine.linkage(), MACHINES_NAME[place[0]])
-        if known and place[-1] not in known:
-            reader.faults.add(place, unknown(place[0].removesuffix("s"), place[-1], known))
-            return FAILED
         found = reader.value(short, item, place)
         if isinstance(found, Failed) or self.data is None:
             return FAILED
         try:
             return made(self.data, found)
         except InputError as error:
-            for line in str(error).splitlines():
+            linkage, (what, name) = self.data.machine.linkage(), place
+            known = linkage.pins if what == "pins" else linkage.slides
+            others = {"actuators", "parts"} & self.table.keys()  # which bring pins of their own
+            misspelt = name not in known and (not others or get_close_matches(name[:80], known))
+            for line in [unknown(what[:-1], name, known)] if misspelt else str(error).splitlines():
                 reader.faults.add(place, line)
             return FAILED
 

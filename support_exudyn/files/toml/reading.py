@@ -134,32 +134,42 @@ class Reader:
     ) -> None:
         """Note pydantic's errors of a table; given: by the names of fields, their keys and items."""
         notes: dict[tuple[Any, ...], Callable[[], None] | None] = {}  # by their places; None: is noted already
-        for error in found.errors(include_url=False):
-            name, *rest = error["loc"] or (None,)
-            why = error.get("ctx", {}).get("error")
-            if name is None:
-                for line in str(why or error["msg"]).splitlines():
+        errors: list[Any] = list(found.errors(include_url=False))
+        extra = [error["loc"] for error in errors if error["type"] == "extra_forbidden"]
+        for error in errors:
+            name, *rest = error["loc"] or ("",)
+            if not name:
+                for line in str(error.get("ctx", {}).get("error", error["msg"])).splitlines():
                     self.faults.add(place, line)
             elif error["input"] is FAILED:
                 notes[error["loc"]] = None
             elif name not in given:
-                self.faults.add((*place, fields[str(name)].keys[0]), "missing; it has no default")
+                self.faults.add((*place, fields[name].keys[0]), "missing; it has no default")
             else:
-                field, (key, item) = fields[str(name)], given[str(name)]
+                field, (key, item) = fields[name], given[name]
                 shape, here, at = field.shape, (*place, key), error["loc"][:1]
                 for part in rest:
                     if isinstance(part, str) and not isinstance(item, dict):  # how pydantic names a choice
                         continue
-                    if not _has(item, part):
+                    if not _has(item, part) or (*at, part) in extra:
                         break
                     shape, item, at = inner_shape(shape, part), item[part], (*at, part)
                     here = (*here[:-1], f"{here[-1]}[{part}]") if isinstance(part, int) else (*here, part)
-                notes.setdefault(
-                    at, partial(self._refuse, shape, item, here, field.unit, field.ending(key), error)
-                )
-        for at, note in notes.items():
-            if note is not None and not any(len(one) > len(at) and one[: len(at)] == at for one in notes):
-                note()
+                last = str(error["loc"][-1])
+                if error["loc"] in extra:
+                    hint = "" if self.faults.is_full else f"; {nearest(last, shape['properties'])}"
+                    self.faults.add((*here, last), f"unknown key{hint}")
+                elif error["type"] == "missing" and isinstance(item, dict):
+                    near = (get_close_matches(str(one[-1])[:80], [last], 1) for one in extra if one[:-1] == at)
+                    if not any(near):  # else it is misspelt
+                        said_of_it = shape["properties"][last]["description"]
+                        self.faults.add((*here, last), f"missing; it has no default: {said_of_it}")
+                else:
+                    note = partial(self._refuse, shape, item, here, field.unit, field.ending(key), error)
+                    notes.setdefault(at, note)
+        for at, one in notes.items():
+            if one is not None and not any(len(other) > len(at) and other[: len(at)] == at for other in notes):
+                one()
 
     def _refuse(
         self, shape: Shape, item: Any, place: Place, unit: Unit | None, ending: str, error: Any = None
@@ -209,23 +219,10 @@ class Reader:
             )
         if not isinstance(item, dict):
             return item
-        known: Mapping[str, Shape] = shape.get("properties", {})
-        found, ok = {}, True
-        for name, one in item.items():
-            if known and name not in known:
-                ok = False
-                hint = "" if self.faults.is_full else f"; {nearest(name, known)}"
-                self.faults.add((*place, name), f"unknown key{hint}")
-            else:
-                found[name] = self._in_si(inner_shape(shape, name), one, (*place, name), unit, ending)
-        meant = {near for name in item if name not in known for near in get_close_matches(name[:80], known, 1)}
-        for name in shape.get("required", ()):
-            if name not in item:
-                ok = False
-                if name not in meant:
-                    told = known[name]["description"]
-                    self.faults.add((*place, name), f"missing; it has no default: {told}")
-        return found if ok else FAILED
+        return {
+            name: self._in_si(inner_shape(shape, name), one, (*place, name), unit, ending)
+            for name, one in item.items()
+        }
 
     def _sourced(
         self,
@@ -354,8 +351,10 @@ def _is_of_kind(shape: Shape, item: Any) -> bool:
 
 def _is_for(shape: Shape, item: Any, unit: Unit | None, ending: str) -> bool:
     """Whether an item is of a kind of a shape, so that a check of a class has refused it."""
-    fits = any(_is_of_kind(one, item) for one in options(shape))
-    return fits and (not _is_number(item) or abs(_number_in_si(item, unit, ending)) <= LARGEST)
+    fitting = [one for one in options(shape) if _is_of_kind(one, item)]
+    if _is_number(item):
+        return any(_is_within(_number_in_si(item, unit, ending), one) for one in fitting)
+    return bool(fitting)
 
 
 def _is_number(item: Any) -> bool:
@@ -391,6 +390,6 @@ def _number_in_si(item: int | float | Decimal, unit: Unit | None, ending: str) -
 
 def _is_within(number: float, shape: Shape) -> bool:
     """Whether a number is one of a shape."""
-    bounds = (fits(number, shape[name]) for name, (*_, fits) in BOUNDS.items() if name in shape)
-    whole = shape["type"] == "number" or number == math.floor(number)
-    return abs(number) <= LARGEST and whole and all(bounds)
+    if not abs(number) <= LARGEST or (shape["type"] == "integer" and number != math.floor(number)):
+        return False
+    return all(fits(number, shape[name]) for name, (*_, fits) in BOUNDS.items() if name in shape)

@@ -88,41 +88,31 @@ class Schemas:
         def inner(one: Shape) -> Table:
             return self.item(one, unit, ending)
 
-        match shape:
-            case {"anyOf": several}:
-                return {"anyOf": list(map(inner, several))}
-            case {"group": group}:
-                return self._group(group)
-            case {"names": names}:
-                known = {"enum": list(names.options)}
-                # classes of one's own are named by their place
-                return (
-                    {"anyOf": [known, {"type": "string", "pattern": ":"}]} if callable(names.known) else known
-                )
-            case {"prefixItems": shapes}:
-                items = list(map(inner, shapes))
-                if all(one == items[0] for one in items):  # as older drafts have it, too
-                    return {**_but(shape, "prefixItems"), "items": items[0]}
-                return {**shape, "prefixItems": items}
-            case {"items": item}:
-                return {**shape, "items": inner(item)}
-            case {"properties": known}:
-                of_unit = f" [{ending}]" if ending else ""
-                inside = {
-                    name: {
-                        "description": one.get("description", name) + of_unit,
-                        **inner(_but(one, "description")),
-                    }
-                    for name, one in known.items()
-                }
-                needed = {"required": list(shape["required"])} if shape.get("required") else {}
-                return {"type": "object", "properties": inside, **needed, "additionalProperties": False}
-            case {"additionalProperties": item}:
-                return {**shape, "additionalProperties": inner(item)}
+        if "group" in shape:
+            return self._group(shape["group"])
+        if "names" in shape:
+            known = {"enum": list(shape["names"].options)}
+            own = {"type": "string", "pattern": ":"}  # classes of one's own are named by their place
+            return {"anyOf": [known, own]} if callable(shape["names"].known) else known
+        if "properties" in shape:
+            of_unit = f" [{ending}]" if ending else ""
+            inside = {name: inner(one) for name, one in shape["properties"].items()}
+            inside = {
+                name: {**one, "description": one.get("description", name) + of_unit}
+                for name, one in inside.items()
+            }
+            return {**shape, "properties": inside}
+        found = dict(shape)
+        for word in {"items", "additionalProperties"} & shape.keys():
+            found[word] = inner(shape[word])
+        for word in {"anyOf", "prefixItems"} & shape.keys():
+            found[word] = list(map(inner, shape[word]))
+        if "prefixItems" in found and all(one == found["prefixItems"][0] for one in found["prefixItems"]):
+            found["items"] = found.pop("prefixItems")[0]  # as older drafts have it, too
         if not is_number(shape):
-            return dict(shape)
+            return found
         bounds = {name: _plain(scaled(shape[name], unit, ending)) for name in BOUNDS if name in shape}
-        plain = {"type": shape["type"], **bounds}
+        plain = {**found, **bounds}
         if not self.sourced:
             return plain
         table: Table = {"$ref": f"#/$defs/{SourcedNumber.__name__}"}
@@ -144,11 +134,6 @@ class Schemas:
     def whole(self, title: str, table: Table) -> Table:
         """A schema of a file, with all that it refers to."""
         return {"$schema": DRAFT, "title": title, **table, "$defs": dict(sorted(self.defs.items()))}
-
-
-def _but(shape: Shape, key: str) -> Table:
-    """A shape without a keyword."""
-    return {word: one for word, one in shape.items() if word != key}
 
 
 def _sourced() -> Table:

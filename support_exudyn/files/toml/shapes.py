@@ -22,11 +22,12 @@ from pydantic.json_schema import GenerateJsonSchema
 from pydantic_core import core_schema
 from typing_extensions import Never
 
-from support_exudyn.files.toml.faults import said
+from support_exudyn.files.toml.faults import nearest, said
 from user_forces.values.units import Unit
 from user_forces.values.value import GROUP, InputError, Value, is_kind_of, known_classes
 
 Shape = Mapping[str, Any]
+NAMES = "names"  # in the schemas of fields: the names of a text
 # keywords of JSON Schema, each with pydantic's name, its sign and what fits it
 BOUNDS: dict[str, tuple[str, str, Callable[[float, float], bool]]] = {
     "exclusiveMinimum": ("gt", ">", operator.gt),
@@ -63,29 +64,38 @@ class Names:
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> Any:
         """For pydantic: no value has another name."""
-        return core_schema.no_info_after_validator_function(self._checked, handler(source))
+        if isinstance(self.known, Mapping) and source is not str:
+            return _named(source, self.known, self.required, handler)
+        return core_schema.no_info_after_validator_function(
+            self._checked, handler(source), metadata={NAMES: self}
+        )
 
-    def __get_pydantic_json_schema__(self, core: Any, handler: Any) -> Shape:
-        """The shape: the names of a text, or the keys of a table and so of the tables in it."""
-        shape = handler(core)
-        if "additionalProperties" not in shape:
-            return {"names": self}
-        return {**_named(shape["additionalProperties"], self.known), "required": self.required}
-
-    def _checked(self, item: Any) -> Any:
-        missing = [name for name in self.required if name not in item]
-        if missing:
-            raise ValueError(f"{missing[0]}: missing; it has no default")
-        _check_names(item, self.options if callable(self.known) else self.known)
-        return item
+    def _checked(self, name: str) -> str:
+        if name not in self.options:
+            raise ValueError(f"there is no {name!r}; {nearest(name, self.options)}")
+        return name
 
 
-def _check_names(item: Any, known: Any) -> None:
-    for name in [item] if isinstance(item, str) else item:
-        if name not in known:
-            raise ValueError(f"there is no {name!r}; allowed: {', '.join(known)}")
-        if isinstance(item, Mapping) and isinstance(known[name], Mapping):
-            _check_names(item[name], known[name])
+def _named(
+    source: Any, known: Mapping[str, Any], required: tuple[str, ...], handler: GetCoreSchemaHandler
+) -> Any:
+    """Schema for pydantic of a mapping whose keys are known, and so of those in it where names hold names."""
+    item = typing.get_args(source)[1]
+    inside = {
+        name: core_schema.typed_dict_field(
+            _named(item, one, (), handler) if isinstance(one, Mapping) else handler.generate_schema(item),
+            required=name in required,
+            metadata={} if isinstance(one, Mapping) else {"pydantic_js_updates": {"description": one}},
+        )
+        for name, one in known.items()
+    }
+
+    def in_order(given: Any, check: Callable[[Any], Mapping[str, Any]]) -> Mapping[str, Any]:
+        found = check(given)
+        return {name: found[name] for name in given}
+
+    table = core_schema.typed_dict_schema(inside, extra_behavior="forbid")
+    return core_schema.no_info_wrap_validator_function(in_order, table)
 
 
 @dataclass(frozen=True)
@@ -223,6 +233,11 @@ class _Shapes(GenerateJsonSchema):
         cls = schema.get("metadata", {}).get(GROUP)
         return super().function_plain_schema(schema) if cls is None else {"group": GroupShape((cls,))}
 
+    def function_after_schema(self, schema: Any) -> Any:
+        """The names of a text."""
+        names = schema.get("metadata", {}).get(NAMES)
+        return super().function_after_schema(schema) if names is None else {"names": names}
+
     def nullable_schema(self, schema: Any) -> Any:
         """The shape without None, which a file says by leaving a key out."""
         return self.generate_inner(schema["schema"])
@@ -244,17 +259,6 @@ class _Shapes(GenerateJsonSchema):
         )
 
 
-def _named(item: Shape, known: Any) -> dict[str, Any]:
-    """The shape of a table whose keys are known, and so of the tables in it where names hold names."""
-    inside = {
-        name: _named(item["additionalProperties"], one)
-        if isinstance(one, Mapping)
-        else {**item, "description": one}
-        for name, one in known.items()
-    }
-    return {"type": "object", "properties": inside}
-
-
 def _unit(annotation: Any, metadata: Sequence[Any] = ()) -> Unit | None:
     """The unit in a type, or in what it holds; not in the classes that it may be."""
     for item in metadata:
@@ -273,7 +277,7 @@ def inner_shape(shape: Shape, at: str | int) -> Shape:
             each: Sequence[Shape] = one.get("prefixItems", ())
             return each[at] if at < len(each) else one.get("items", {})
         if one.get("type") == "object" and isinstance(at, str):
-            return one.get("properties", {}).get(at) or one.get("additionalProperties", {})  # type: ignore[no-any-return]
+            return one.get("properties", {}).get(at) or one.get("additionalProperties") or {}
     return {}
 
 
