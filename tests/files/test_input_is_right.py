@@ -40,23 +40,6 @@ COUPLED = {"type": "CoupledDrive", "lowest_rad": 0, "reach_rad": 1, "coefficient
 
 
 @pytest.mark.parametrize(
-    ("machine", "drive", "message"),
-    [
-        ("crank_rocker", CUBIC | {"stroke_mm": 500}, "drive.stroke_mm = 500: allowed: stroke_deg, stroke_rad"),
-        ("crank_rocker", CUBIC, "drive.stroke_deg: missing; allowed: stroke_deg, stroke_rad, for cranks turn"),
-        ("crank_rocker", {"type": "Steady", "rate_m_per_s": 1}, "allowed: rate_deg_per_s, rate_rad_per_s"),
-        ("crank_rocker", {"type": "TableDrive", "times_s": [0, 1], "extensions_mm": [0, 1]}, "extensions_deg"),
-        ("zf18000", {"type": "Steady", "rate_rpm": 60}, "rate_rpm = 60: allowed: rate_mm_per_s, rate_m_per_s"),
-        ("zf18000", CUBIC | {"stroke_deg": 60}, "stroke_deg = 60: allowed: stroke_mm, stroke_m"),
-    ],
-)
-def test_units_of_drives_fit_what_they_move(machine: str, drive: Mapping[str, Any], message: str) -> None:
-    with pytest.raises(InputError) as refused:
-        simple_scenario(machine, duration_s=1, drive=drive)
-    assert message in str(refused.value)
-
-
-@pytest.mark.parametrize(
     ("machine", "drive", "goal"),
     [
         ("crank_rocker", CUBIC | {"stroke_deg": 90}, 0.5 * math.pi),

@@ -8,7 +8,6 @@ import pytest
 
 from support_exudyn import ClearancePin, trusted
 from support_exudyn.files import read_scenario
-from user_forces.values.value import InputError
 
 LAWS = """
 import math
@@ -77,24 +76,3 @@ def test_a_law_is_named_by_its_file_or_module(tmp_path: Path, place: str) -> Non
     assert isinstance(pin, ClearancePin)
     assert type(pin.contact.normal).__name__ == f"{prefix}Normal"
     assert pin.contact.friction.to_data() == {"type": f"{prefix}Friction", "mu": 0.2}
-
-
-@pytest.mark.parametrize(
-    ("lines", "message"),
-    [
-        ('law = "no_laws.py:A"', "law = 'no_laws.py:A': allowed: a file that is there"),
-        ('friction_law = "own_laws_bad.py:BadPlain"', "made with @value"),
-        ('law = "own_laws_bad.py:BadFriction"', "law = 'BadFriction': .*allowed: BadNormal"),
-        ('law = "Johnson"', "law takes laws of stiffness and restitution only, and Johnson has .*ClearancePin"),
-        (
-            'law = "own_laws_bad.py:BadRig"',
-            r"BadRig has fields of its own: .*\[pins.NAME.contact\], .*normal = {",
-        ),
-        ('friction_law = "Frictionless"\nfriction = 0.1', "Frictionless has no coefficient"),
-        ('friction_law = "Ambrosio"\nfriction = {type = "Ambrosio", sliding_coefficient = 0.1}', "are two"),
-    ],
-)
-def test_what_is_wrong_is_told_with_what_is_of_the_right_kind(tmp_path: Path, lines: str, message: str) -> None:
-    module = f"own_laws_{abs(hash(lines))}"  # of which a process knows one by each name
-    with pytest.raises(InputError, match=message):
-        read_scenario(write(tmp_path, lines.replace("own_laws_bad", module), module, "Bad"))

@@ -180,49 +180,6 @@ def test_scenarios_are_read_as_they_were_written(data: st.DataObject) -> None:
 # --- what is said of mistakes ---
 
 
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
-        (
-            'machine = "slider_crank"\nduration_s = 1\n[drive]\nmode = 2\nstroke_mm = 1',
-            "a.toml: drive.mode = 2: allowed: none of cranks",
-        ),
-        ("", "a.toml: machine: missing; allowed: a path that ends in .toml"),
-        ('machine = "no.toml"\nduration_s = 1', "a.toml: machine = 'no.toml'"),
-        ('duration_s = 1\n[machine]\ntype = "Sup"', "a.toml: machine.type = 'Sup'"),
-        ('nme = "a"\n' + TOP, "a.toml: nme: unknown key; did you mean name? allowed: name, description, "),
-        (TOP + 'accuracy = "best"', "a.toml: accuracy = 'best': allowed: 'draft', 'standard', 'reference', or"),
-        (TOP + "step_ms = 500", "a.toml: step_ms = 500: allowed: > 0 and <= 100"),
-        (TOP + "record_period_s = 6", "a.toml: record_period = 6.0 s: allowed: at most the duration, 5.0 s"),
-        (
-            TOP + WITH_CLEARANCE.replace("rear_base", "rear"),
-            "a.toml: pins.rear: unknown pin 'rear'; did you mean 'rear_base'",
-        ),
-        (TOP + WITH_CLEARANCE.replace("1.5", "70"), "a.toml: pins.rear_base: clearance_mm = 70"),
-        (TOP + WITH_CLEARANCE + "law = 'Hertzz'", "a.toml: pins.rear_base.law = 'Hertzz': did you mean Hertz?"),
-        (TOP + WITH_CLEARANCE + "law = 'Hertz'\nrestitution = 0.9", "a.toml: pins.rear_base: restitution"),
-        (
-            TOP + WITH_CLEARANCE + "stiffness_N_per_m_to_n = 1e10\nbore_material = 'steel'",
-            "a.toml: pins.rear_base: bore_material: would be left unused",
-        ),
-        (TOP + "[drive]\nmode = 1\nend_s = 1", "a.toml: drive: end = 1.0 s: allowed: > start = 3.0 s"),
-        (TOP + "[drive]\nstroke_mm = 3", "a.toml: drive: says no mode, table or type; allowed: mode = 1 or 2"),
-        (
-            TOP + "drive.mode = 2\ndrive.stroke_mm = 5000",
-            "a.toml: drives.front_column and drives.rear_column: front_column and rear_column cannot follow",
-        ),
-        (TOP + "drive.table = 'no.csv'", "a.toml: drive.table = 'no.csv': allowed: a file that can be read"),
-        (TOP + "channels = ['tip.z']", "a.toml: channels = 'tip.z'"),
-        ("kind = 'two_leg_shield'\nstroke_mm = 3\n[masses_kg]\ncanopy = 3", "a.toml: is the file"),
-    ],
-)
-def test_mistakes_are_said_with_file_key_value_and_range(tmp_path: Path, text: str, said: str) -> None:
-    before, allowed, first = said.partition("allowed: ")
-    told = refusal(text, tmp_path)
-    assert told.startswith(before + allowed)
-    assert first.rstrip(", ") in told  # there may be classes of other tests before it
-
-
 def test_a_bore_that_nobody_gives_is_asked_for(tmp_path: Path) -> None:
     text = (resources.files("support_exudyn.files.machines") / "reference.toml").read_text("utf-8")
     text = text.partition("[bore_radius_mm]")[0]  # which is the last table

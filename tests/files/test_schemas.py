@@ -7,13 +7,12 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from jsonschema import Draft7Validator, Draft202012Validator
+from jsonschema import Draft202012Validator
 
 from support_exudyn import Scenario
 from support_exudyn.files import load_toml, parsed, scenario_of, scenario_schema, scenario_text
 from support_exudyn.files.own_modules import OURS
 from tests import strategies as some
-from user_forces import InputError
 from user_forces.values.sourced import SourcedNumber
 from user_forces.values.value import Value
 
@@ -86,58 +85,6 @@ def test_scenarios_in_full_are_taken(seed: Scenario) -> None:
 def test_short_forms_are_taken(text: str) -> None:
     scenario_of(parsed(text, "a"), "a", FOLDER)
     assert faults(text) == []
-
-
-@pytest.mark.parametrize(
-    "text",
-    [
-        "",
-        'machine = "reference"',
-        "machine = 3\nduration_s = 1",
-        'duration_s = 1\n[machine]\ntype = "Sup"',
-        'nme = "a"\n' + TOP,
-        "name = 3\n" + TOP,
-        "errors = 1\n" + TOP,
-        'type = "Held"\n' + TOP,
-        TOP + "duration_ms = 1",
-        TOP + 'accuracy = "best"',
-        TOP + "dimensions = 4",
-        TOP + "step_ms = 500",
-        TOP + "step_s = 0",
-        TOP + "step = 1e-4",
-        TOP + "gravity_m_per_s2 = [0]",
-        TOP + "solver = 3",
-        TOP + "solver.impact_steps = 1",
-        TOP + "solver.impact_steps = 16.5",
-        TOP + "solver.audit = 1",
-        TOP + WITH_CLEARANCE.replace("1.5", "-1"),
-        TOP + "[pins.rear_base]\nbore_radius_mm = 60",
-        TOP + WITH_CLEARANCE + "clearance_m = 1e-3",
-        TOP + WITH_CLEARANCE + "law = 'Hertzz'",
-        TOP + WITH_CLEARANCE + "stiffness = 1e10",
-        TOP + WITH_CLEARANCE + "friction = 'wet'",
-        TOP + WITH_CLEARANCE + "restitution = 1.5",
-        TOP + "pins.rear_base.ideal = false",
-        TOP + "pins = 3",
-        TOP + "pins.rear_base = 1.5",
-        TOP + "pins.rear_base.type = 'ClearancePin'",
-        TOP + "pins.rear_base.type = 'Held'",
-        TOP + "drive.mode = 3",
-        TOP + "drive.stroke_mm = 3",
-        TOP + "drive = {type = 'CubicStep', stroke = 3}",
-        TOP + "drive.table = 3",
-        TOP + "drives.table = 3",
-        TOP + "actuators.front_column = {type = 'CylinderAndRod', rod_mass = 3}",
-        TOP + "actuators.front_column.type = 'OilColumn'",
-        TOP + "channels = 'tip.x'",
-    ],
-)
-def test_what_the_reader_refuses_is_refused(text: str) -> None:
-    with pytest.raises(InputError):
-        scenario_of(parsed(text, "a"), "a", FOLDER)
-    assert faults(text)
-    # by editors too that know the draft of 2018 only
-    assert not Draft7Validator(scenario_schema()).is_valid(plain(parsed(text, "a")))
 
 
 def test_every_field_of_every_class_is_described() -> None:

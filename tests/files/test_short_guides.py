@@ -5,14 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-import pytest
-
 from support_exudyn import Scenario, ravn_slider_crank
 from support_exudyn.files import parsed, scenario_of
 from support_exudyn.files.scenarios.short_joints import ShortGuide
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.model.guides import ClearanceGuide
-from user_forces import Ambrosio, CubicCoulomb, Exact, Flores, InputError
+from user_forces import Ambrosio, CubicCoulomb, Exact, Flores
 from user_forces.materials import STEEL, STEEL_35CRMO, plane_contact_stiffness
 
 TOP = 'machine = "slider_crank"\nduration_s = 0.1\ndrive = { type = "Steady", rate_rpm = 100 }\n'
@@ -58,24 +56,3 @@ def test_a_block_is_that_of_the_machines_file() -> None:
     assert ShortGuide(clearance=1e-4, pin_radius=0.01).guide(SHAPE) == ClearanceGuide.simple(
         gaps=1e-4, pin_radius=0.01
     )
-
-
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
-        ("clearance_mm = 0.1\n", r"guides\.guide: block_mm: missing, and the machine's file says none"),
-        (
-            f"clearance_mm = 1\n{BLOCK}corner_radius_mm = 1\nstiffness_N_per_m_to_n = 1e9\n",
-            "allowed: one of them",
-        ),
-        (
-            f'clearance_mm = 1\n{BLOCK}law = "Johnson"\n',
-            r'"ClearanceGuide" and in it, normal = {',
-        ),
-        (f'{ONE}{BLOCK}law = "Hertz"\nrestitution = 0.5\n', "restitution: the law Hertz has none"),
-        ("clearance_mm = 1\npin_radius_mm = 5\n", "has a pin_radius; allowed: block"),
-    ],
-)
-def test_what_is_wrong_is_told_by_its_key(text: str, said: str) -> None:
-    with pytest.raises(InputError, match=said):
-        read(f"[guides.guide]\n{text}")

@@ -13,12 +13,10 @@ from hypothesis import strategies as st
 from jsonschema import Draft7Validator, Draft202012Validator
 
 from support_exudyn.files import ScenarioFile, scenario_file_of, scenario_schema
-from support_exudyn.files.machines import SHIPPED, load_machine, machine_schema, read_machine
+from support_exudyn.files.machines import SHIPPED, machine_schema, read_machine
 from support_exudyn.files.machines.read import _of_text
 from support_exudyn.files.toml.text import parsed, toml_text
 from tests.files.test_schemas import plain
-from tests.machine_files import written
-from user_forces import InputError
 from user_forces.values.sourced import SourcedNumber
 
 VALIDATORS = [kind(machine_schema()) for kind in (Draft202012Validator, Draft7Validator)]
@@ -66,27 +64,6 @@ def test_numbers_with_range_and_source_make_the_same_machine(data: st.DataObject
         assert not list(validator.iter_errors(plain(table)))
 
 
-@pytest.mark.parametrize(
-    ("new", "said"),
-    [
-        ("{ value = 900, from = 950, to = 1200 }", ".value = 900: allowed: from 950 to 1200"),
-        ("{ value = 900, from = 1200, to = 800 }", ".from = 1200: allowed: <= to = 800"),
-        ('{ value = 900, source = " " }', ".source = ' ': allowed: a text that is not empty"),
-        ("{ value = 900, from = 800 }", ".to: missing; a range has from and to"),
-        ("{ value = 900, from = 0, to = 1000 }", ".from = 0: allowed: > 0"),
-        ('{ from = 800, to = 1000, source = "a" }', ".value: missing; it has no default"),
-    ],
-)
-def test_what_is_wrong_is_told_by_its_key(new: str, said: str, tmp_path: Path) -> None:
-    path = written(tmp_path, "rear_link = 900", f"rear_link = {new}")
-    with pytest.raises(InputError) as caught:
-        load_machine(path)
-    assert str(caught.value) == f"{path}: masses_kg.rear_link{said}"
-    table = plain(parsed(path.read_text("utf-8"), ""))
-    ordered = ".value = 900: allowed: from" in said or "<= to" in said or "NaN" in said  # not seen by a schema
-    assert all(bool(list(validator.iter_errors(table))) is not ordered for validator in VALIDATORS)
-
-
 SCENE = """
 machine = "reference"
 duration_s = 1
@@ -129,20 +106,3 @@ def test_numbers_of_scenarios_may_say_range_and_source(key: str, number: str, lo
     assert found.sourced == {key: SourcedNumber(Decimal(number), Decimal(low), Decimal(high), "a drawing")}
     assert scene(SCENE).sourced == {}
     assert not list(Draft202012Validator(scenario_schema()).iter_errors(plain(parsed(text, ""))))
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "said"),
-    [
-        ("= 500", "= { value = 900, from = 300, to = 800 }", "oil_length_mm.value = 900"),
-        ("= 500", "= { valeu = 1 }", "oil_length_mm.valeu: unknown key; did you mean value?"),
-        ("= 1e-3", '= { value = "draft" }', "accuracy.value = 'draft': allowed: a number"),
-        ("stiffness_N_per_m_to_n", "stiffness", "stiffness: a number needs its unit in the key"),
-    ],
-)
-def test_what_is_wrong_with_a_number_of_a_scenario_is_told(old: str, new: str, said: str) -> None:
-    text = SCENE.replace(old, new).replace("stiffness = 1e10", "stiffness = { value = 1e10 }")
-    with pytest.raises(InputError) as caught:
-        scene(text)
-    assert said in str(caught.value)
-    assert "a.toml: " in str(caught.value)
