@@ -27,6 +27,7 @@ def compare(
     map: Path | None = None,  # noqa: A002, the option's name
     shift: bool = False,
     tolerance: str | None = None,
+    csv: Path | None = None,
     junit: Path | None = None,
     figure: Path | None = None,
     page: Path | None = None,
@@ -46,6 +47,7 @@ def compare(
         map: compare.toml: which column is which channel, tolerances.
         shift: Determine by how much each file lags behind the reference, and take it off.
         tolerance: What is allowed: shares of the reference's range or amounts, `pin.*.force=2%,tip.*=0.1mm`.
+        csv: The table as CSV, in SI: a row for each measure of each channel.
         junit: JUnit XML for test servers: a test case for each channel.
         figure: Figure, .png, .pdf or .svg: curves, differences, what is allowed.
         page: Page for a browser with all of it.
@@ -72,6 +74,7 @@ def compare(
             )
         written: list[Path] = []
         writers = (
+            (csv, tables.write_csv),
             (junit, tables.write_junit),
             (figure, compare_page.write_figure),
             (page, compare_page.write_page),
@@ -89,8 +92,8 @@ def compare(
                 show_table(sheet.title, header, sheet.rows)
                 for line in (*tables.notes(pair), *pair.faults):
                     say(line)
-            say("\n".join([tables.VERDICTS[compared.verdict], *(str(path) for path in written)]))
-        return DIFFERENT if compared.verdict in ("not within", "not decided") else 0
+            say("\n".join([tables.conclusion(compared), *(str(path) for path in written)]))
+        return DIFFERENT if compared.failed else 0
 
     return answered(work, REFUSED)
 

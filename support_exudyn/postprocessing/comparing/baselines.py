@@ -158,7 +158,7 @@ def _changed_columns(
             yield RunChange("changed", what, name, f"in {was.unit} -> in {now.unit}")
         elif not (was.time.size and was.time[0] > end):
             channel = compared(name, was, now, BOTH_ERRORS, until=end)
-            if channel.gaps or channel.verdict == "not within":
+            if channel.gaps or channel.verdict == "differs":
                 ratio = math.inf if channel.gaps else channel.over_errors
                 yield RunChange("changed", what, name, channel.faults[0].removeprefix(f"{name}: "), ratio)
 

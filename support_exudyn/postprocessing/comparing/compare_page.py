@@ -119,7 +119,7 @@ def _mark(axes: Axes, pairs: list[ComparedPair], name: str) -> None:
         if math.isfinite(channel.measures.largest):
             at = f"{channel.measures.largest_time:.4g} s"
             largest = f"largest {said(channel.measures.largest, channel.unit)} at {at}"
-        verdict = f", {tables.verdict_words(channel)}" if channel.tolerance is not None else ""
+        verdict = f", {channel.verdict} ({channel.tolerance.text})" if channel.tolerance is not None else ""
         titles.append(f"{pair.other.name}: {largest}{verdict}")
     axes.set_title("; ".join(titles), fontsize=7)
     sizes = [channel.largest.value for channel in channels if math.isfinite(channel.largest.value)]
@@ -158,7 +158,7 @@ def write_page(compared: FilesCompared, path: Path) -> None:
             })  # fmt: skip
     page = {
         "title": _title(compared),
-        "verdict": tables.VERDICTS[compared.verdict],
+        "verdict": tables.conclusion(compared),
         "files": files,
     }
     text = templates().get_template(TEMPLATE).render(page=page, scripts=Markup(pages.scripts))

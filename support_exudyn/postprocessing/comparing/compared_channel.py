@@ -1,4 +1,4 @@
-"""A channel against its reference: both columns joined in time, with measures, errors and a verdict."""
+"""A channel against its reference: both columns joined in time, then rows of measures, errors and verdicts."""
 
 from __future__ import annotations
 
@@ -28,11 +28,15 @@ from support_exudyn.simulation.estimate import Estimate
 from user_forces.values.value import InputError
 
 Values = npt.NDArray[np.float64]
-Verdict = Literal["within", "not within", "not decided", "no tolerance"]
-WORST_FIRST: tuple[Verdict, ...] = ("not within", "not decided", "within", "no tolerance")
+Verdict = Literal["differs", "not decided", "not comparable", "differs within tolerance", "agrees"]
+WORST_FIRST: tuple[Verdict, ...] = (
+    "differs", "not decided", "differs within tolerance", "agrees", "not comparable",
+)  # fmt: skip
+FAILED: tuple[Verdict, ...] = ("differs", "not decided")  # if there is a tolerance
 ANGLE, TURN = "rad", 2.0 * math.pi
 LEFT_OF_A_TURN = 1e-6  # share by which a file's digits may leave the range of a wrapped angle
 ROUNDING = 1e-9  # share of what is allowed: 1.1 - 1.0 is 0.1, in whatever digits
+CERTAIN = 10.0  # times the numerical errors from which on a difference is certain: errors are estimates
 
 
 class ComparedColumn(NamedTuple):
@@ -90,6 +94,40 @@ def _unwrapped(angle: Values) -> Values:
     return continuous
 
 
+class Row(NamedTuple):
+    """A line of a comparison: a measure of a channel, in SI; NaN where a number is not known.
+
+    measure: its name. time: of it [s], NaN of a measure of the whole curve. reference, other: of both sides.
+    error: of the difference. tolerance: what is allowed. verdict: None of a measure that is not judged.
+    reason: of the verdict, a sentence.
+    """
+
+    channel: str
+    unit: str
+    measure: str
+    time: float = math.nan
+    reference: float = math.nan
+    other: float = math.nan
+    difference: float = math.nan
+    error: float = math.nan
+    tolerance: float = math.nan
+    verdict: Verdict | None = None
+    reason: str = ""
+
+
+def _differs(row: Row) -> str:
+    """Both values of a row, when they are, and by how much they differ, in words."""
+    at = f" at {row.time:.6g} s" if math.isfinite(row.time) else ""
+    what = "" if row.measure == "largest" else f"the {row.measure} is "
+    values = f"{what}{row.other:.9g} {row.unit}{at}, where the reference is {row.reference:.9g},"
+    return f"{values} differs by {said(abs(row.difference), row.unit, 4)}"
+
+
+def _error_text(row: Row) -> str:
+    known = math.isfinite(row.error)
+    return f"the numerical error of {said(row.error, row.unit, 2)}" if known else "an unknown numerical error"
+
+
 def decide(value: float, error: float, allowed: float) -> Verdict:
     """Whether the magnitude of a difference is within what is allowed.
 
@@ -99,13 +137,13 @@ def decide(value: float, error: float, allowed: float) -> Verdict:
     unsure = error > allowed and value - error <= allowed
     if math.isnan(value) or not math.isfinite(error) or unsure:
         return "not decided"
-    return "within" if value <= allowed * (1.0 + ROUNDING) else "not within"
+    return "differs within tolerance" if value <= allowed * (1.0 + ROUNDING) else "differs"
 
 
-def worst(verdicts: Iterable[Verdict]) -> Verdict:
-    """The verdict on all: the worst of those on each."""
+def worst(verdicts: Iterable[Verdict | None]) -> Verdict:
+    """The verdict on all: the worst of those on each; "not comparable" if there is none."""
     each = set(verdicts)
-    return next((verdict for verdict in WORST_FIRST if verdict in each), "no tolerance")
+    return next((verdict for verdict in WORST_FIRST if verdict in each), "not comparable")
 
 
 @dataclass(frozen=True)
@@ -143,6 +181,10 @@ class ComparedChannel:
             return Estimate(math.nan, math.nan, self.unit)
         return Estimate(abs(self.measures.largest), float(self.errors[self._largest_at]), self.unit)
 
+    @property
+    def _largest_at(self) -> int:
+        return int(np.searchsorted(self.common.time, self.measures.largest_time))
+
     @cached_property
     def _multiples(self) -> Values:
         """The difference over its error at each time before the horizon, (n,); -1 where no error is known."""
@@ -157,8 +199,12 @@ class ComparedChannel:
         return largest if largest >= 0.0 else math.nan
 
     @property
-    def _largest_at(self) -> int:
-        return int(np.searchsorted(self.common.time, self.measures.largest_time))
+    def beyond_errors(self) -> str:
+        """Whether the curves differ by more than their numerical errors: no, uncertain, yes; "-": not known."""
+        times = self.over_errors
+        return (
+            "-" if math.isnan(times) else "no" if times <= 1.0 else "yes" if times >= CERTAIN else "uncertain"
+        )
 
     @property
     def gaps(self) -> int:
@@ -166,66 +212,106 @@ class ComparedChannel:
         return int(np.count_nonzero(np.isfinite(self.common.reference) & ~np.isfinite(self.common.other)))
 
     @cached_property
-    def judged(self) -> tuple[tuple[Verdict, str], ...]:
-        """The verdict on each number that a tolerance bounds, with a sentence; empty without a tolerance.
+    def rows(self) -> tuple[Row, ...]:
+        """The rows of the channel: a tolerance bounds the largest difference, after the horizon statistics.
 
-        They are the largest difference before the horizon, and statistics after it. With the errors as
-        tolerance it is the record with the largest multiple of its error. Curves that are the same to the bit
-        have the same errors, whatever these are. Without numerical errors that of interpolation counts.
+        A percentage is not judged, nor is the mean. Without a tolerance the numerical errors decide.
         """
-        value, error, _ = self.largest
-        if self.tolerance is None:
-            return ()
-        if self.gaps:
-            text = f"not decided: no value at {self.gaps} times at which the reference has a value"
-            return (("not decided", text),)
-        if np.array_equal(self.common.reference, self.common.other, equal_nan=True):
-            return (("within", ""),)
-        judged = []
-        if math.isfinite(value):
-            at, allowed = self._largest_at, self.allowed
-            if not self.tolerance.is_errors:
-                error = float(self.common.interpolation_error[at]) if math.isnan(error) else error
-            elif math.isnan(self.over_errors):
-                error, allowed = math.nan, 0.0
-            else:
-                at = int(self._multiples.argmax())
-                value, error, allowed = abs(float(self.common.difference[at])), 0.0, float(self.errors[at])
-            when = f" at {self.common.time[at]:.6g} s" if self.common.time.size > 1 else ""
-            now, was = self.common.other[at], self.common.reference[at]
-            what = f"{now:.9g} {self.unit}{when}, where the reference is {was:.9g},"
-            judged.append(self._judge(what, value, error, allowed))
+        measures, (reference, other, mean) = self.measures, self.means
+        rows = [
+            Row(self.name, self.unit, "mean", math.nan, reference.value, other.value, mean.value, mean.error),
+            self._largest_row(),
+            Row(self.name, PERCENT, "RMS/range", difference=100.0 * measures.rms_of_range),
+            Row(self.name, PERCENT, "C", difference=100.0 * measures.combined_error),
+        ]
         for name, each in self.statistics.items():
-            what = f"the {name} after the horizon"
-            judged.append(self._judge(what, abs(each.difference), each.half, self.allowed))
-        return tuple(judged)
+            plain = Row(self.name, self.unit, f"{name} after the horizon", math.nan, *each, self.allowed)
+            if self.tolerance is not None:
+                rows.append(self._judged(plain, bool(each.equal)))
+            elif each.equal is not None:
+                rows.append(plain._replace(verdict="agrees" if each.equal else "differs"))
+        return tuple(rows)
 
-    def _judge(self, what: str, value: float, error: float, allowed: float) -> tuple[Verdict, str]:
-        """The verdict on a difference, and a sentence on it."""
-        verdict = decide(value, error, allowed)
-        rule = "" if self.tolerance is None else self.tolerance.text
-        text = f"{what} differs by {said(value, self.unit, 4)}; allowed: {said(allowed, self.unit, 4)} ({rule})"
+    def _largest_row(self) -> Row:
+        """The largest difference before the horizon, or the record that decides, with its verdict.
+
+        With the errors as tolerance it is the record with the largest multiple of its error. Curves that are
+        the same to the bit have the same errors, whatever these are. Without numerical errors that of
+        interpolation counts.
+        """
+        row = Row(self.name, self.unit, "largest", tolerance=self.allowed)
+        if self.gaps:
+            reason = f"no value at {self.gaps} times at which the reference has a value"
+            row = row._replace(verdict="not decided", reason=f"not decided: {reason}")
+        if math.isnan(self.measures.largest):
+            reason = "not decided: there are no two common values"
+            return row if self.gaps or self.statistics else row._replace(verdict="not decided", reason=reason)
+        times, at = self.over_errors, self._largest_at
+        by_errors = self.tolerance is None or self.tolerance.is_errors
+        if by_errors and times > 1.0:
+            at = int(self._multiples.argmax())
+        row = row._replace(
+            time=float(self.common.time[at]) if self.common.time.size > 1 else math.nan,
+            reference=float(self.common.reference[at]),
+            other=float(self.common.other[at]),
+            difference=float(self.common.difference[at]),
+            error=float(self.errors[at]),
+        )
+        if row.verdict:
+            return row
+        if np.array_equal(self.common.reference, self.common.other, equal_nan=True):
+            return row._replace(verdict="agrees", reason="is the same")
+        if self.tolerance is not None and self.tolerance.is_errors:
+            return self._judged(row._replace(tolerance=row.error), times <= 1.0)
+        if self.tolerance is not None:
+            return self._judged(row, times <= 1.0, float(self.common.interpolation_error[at]))
+        return self._by_errors(row)
+
+    def _judged(self, row: Row, agrees: bool, interpolation: float = math.nan) -> Row:
+        """A row with the verdict by its tolerance; agrees: whether the numerical errors explain the difference.
+
+        interpolation: the error where that of the row is not known.
+        """
+        assert self.tolerance is not None
+        error = interpolation if math.isnan(row.error) else row.error
+        bound = f"the tolerance of {said(row.tolerance, self.unit, 4)} ({self.tolerance.text})"
+        if self.tolerance.is_errors:
+            error, bound = (math.nan if math.isnan(self.over_errors) else 0.0), _error_text(row)
+        verdict = decide(abs(row.difference), error, row.tolerance)
+        if agrees and verdict == "differs within tolerance":
+            return row._replace(verdict="agrees", reason=f"{_differs(row)}, within the numerical error")
+        reason = f"{_differs(row)}, {'more' if verdict == 'differs' else 'not more'} than {bound}"
         if verdict == "not decided":
             known = said(error, self.unit, 2) if math.isfinite(error) else "not known"
-            text += f"; not decided, its error is {known}: a finer accuracy may decide"
-        if not allowed and rule.endswith(PERCENT):
-            text += "; the reference is constant: give an amount with its unit"
-        return verdict, text
+            reason = f"{_differs(row)}, which is not decided: the numerical error is {known}, against {bound}"
+        if not row.tolerance and self.tolerance.unit == PERCENT:
+            reason += "; the reference is constant: give an amount with its unit"
+        return row._replace(verdict=verdict, reason=reason)
+
+    def _by_errors(self, row: Row) -> Row:
+        """A row with the verdict by its numerical error alone."""
+        times = self.over_errors
+        if math.isnan(times):
+            reason = f"{_differs(row)}; there is no tolerance, and no numerical error is known"
+            return row._replace(verdict="differs", reason=reason)
+        if times <= 1.0:
+            return row._replace(verdict="agrees", reason=f"{_differs(row)}, within the numerical error")
+        reason = f"{_differs(row)}, more than {_error_text(row)}"
+        if times < CERTAIN:
+            reason = f"{reason}, but less than {CERTAIN:g} times, so that is not certain"
+        return row._replace(verdict="not decided" if times < CERTAIN else "differs", reason=reason)
 
     @property
     def verdict(self) -> Verdict:
-        """Whether the channel is within its tolerance; "not decided" if there is nothing to judge by."""
-        if self.tolerance is None:
-            return "no tolerance"
-        return worst(verdict for verdict, _ in self.judged) if self.judged else "not decided"
+        """The worst verdict of the rows."""
+        return worst(row.verdict for row in self.rows)
 
     @property
     def faults(self) -> list[str]:
-        """Why a channel is not within its tolerance, or not decided: a sentence a number, the worst first."""
-        if self.tolerance is not None and not self.judged:
-            return [f"{self.name}: not decided: there are no two common values"]
-        bad = [each for each in self.judged if each[0] != "within"]
-        return [f"{self.name}: {text}" for _, text in sorted(bad, key=lambda each: WORST_FIRST.index(each[0]))]
+        """Why a channel is not within its tolerance, or not decided: a sentence a row, the worst first."""
+        bad = [row for row in self.rows if row.verdict in FAILED] if self.tolerance is not None else []
+        bad.sort(key=lambda row: FAILED.index(row.verdict or "differs"))
+        return [f"{self.name}: {row.reason}" for row in bad]
 
 
 def compared(
@@ -247,7 +333,7 @@ def compared(
     Arguments:
         name: of the channel.
         reference, other: curves, or numbers; the unit of a number may be None, which is then that of the other.
-        tolerance: by how much they may differ; None: there is no verdict.
+        tolerance: by how much they may differ; None: the numerical errors decide.
         unit: of the comparison; None: that of the other column.
         after, until: the part of curves that is compared [s].
         horizon: from when on curves are compared by their statistics [s]; infinite: never.
@@ -265,12 +351,17 @@ def compared(
         common = on_common_times(*curves, after, until)
         known = common.reference[np.isfinite(common.reference)]
         extent = float(np.ptp(known)) if known.size else 0.0
+        apart = common.difference[np.isfinite(common.difference)]
+        if unit == ANGLE and apart.size:
+            common = common._replace(other=common.other - TURN * round(float(apart[0]) / TURN))
     else:
         common = CommonCurves(np.zeros(1), reference.values, other.values, np.zeros(1))
         extent = abs(float(reference.values[0]))
-    if unit == ANGLE and other.time.size:
-        common = common._replace(other=common.other - _turns_apart(common))
-    errors = _summed(reference.errors_at(common.time), other.errors_at(common.time))
+    mine, its = reference.errors_at(common.time), other.errors_at(common.time)
+    unknown = np.isnan(mine) & np.isnan(its)
+    errors = np.where(
+        unknown, math.nan, np.nan_to_num(mine, posinf=math.inf) + np.nan_to_num(its, posinf=math.inf)
+    )
     errors = errors + common.interpolation_error
     before = common.time < horizon
     return ComparedChannel(
@@ -285,17 +376,6 @@ def compared(
         tolerance,
         math.nan if tolerance is None else tolerance.in_si(name, unit, extent),
     )
-
-
-def _summed(first: Values, second: Values) -> Values:
-    """The errors of a difference, (n,): the sum of both sides; an unknown error, NaN, is left out."""
-    return np.where(np.isnan(first), second, np.where(np.isnan(second), first, first + second))
-
-
-def _turns_apart(common: CommonCurves) -> float:
-    """The full turns [rad] by which an angle begins apart from its reference; 0 without overlap."""
-    known = common.difference[np.isfinite(common.difference)]
-    return TURN * round(float(known[0]) / TURN) if known.size else 0.0
 
 
 def _means(common: CommonCurves, errors: Values, unit: str) -> tuple[Estimate, Estimate, Estimate]:

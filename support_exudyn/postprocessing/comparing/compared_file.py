@@ -9,9 +9,9 @@ from __future__ import annotations
 
 import glob
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cache, cached_property
 from pathlib import Path
 
 import numpy as np
@@ -53,7 +53,7 @@ class ComparedFile:
     name: by which tables and figures call it. path: of it. kind: of file, in words.
     columns: by the names of channels, at shifted times: those that are mapped first.
     run: with its errors, if it is a run of this program. mapped: the columns of channels that a mapping names.
-    shift: was added to the times [s]. notes: what a reader of the numbers has to know. known: see `_numbers`.
+    shift: was added to the times [s]. notes: what a reader of the numbers has to know.
     """
 
     name: str
@@ -64,7 +64,6 @@ class ComparedFile:
     mapped: Mapping[str, str] = field(default_factory=dict)
     shift: float = 0.0
     notes: tuple[str, ...] = ()
-    known: dict[tuple[float, float], Mapping[str, Estimate]] = field(default_factory=dict, compare=False)
 
     @property
     def has_errors(self) -> bool:
@@ -88,16 +87,15 @@ class ComparedFile:
         window = run.window(*ends)
         error = math.nan
         if self.has_errors:
-            usual = self._numbers(ends[1:]).get(f"{channel}.mean")
+            usual = self._numbers(*ends[1:]).get(f"{channel}.mean")
             error = usual.error if usual else run.estimate(lambda run: run.window(*ends).mean).error
         return Estimate(window.mean, error + window.mean_doubt, unit)
 
-    def _numbers(self, window: tuple[float, float]) -> Mapping[str, Estimate]:
-        """The usual numbers of the run between two times [s], computed once."""
-        if window not in self.known:
-            assert self.run is not None
-            self.known[window] = self.run.numbers(*window)
-        return self.known[window]
+    @cached_property
+    def _numbers(self) -> Callable[[float, float], Mapping[str, Estimate]]:
+        """The usual numbers of the run between two times [s], computed once for each pair of times."""
+        assert self.run is not None
+        return cache(self.run.numbers)
 
     def shifted(self, seconds: float) -> ComparedFile:
         """The file with a time [s] added to all of its times."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
@@ -14,7 +14,9 @@ from support_exudyn.files.series.named_series import Progress, silent
 from support_exudyn.files.series.units import scaled, unit_checked
 from support_exudyn.postprocessing import summary
 from support_exudyn.postprocessing.comparing.compared_channel import (
+    FAILED,
     ComparedChannel,
+    Row,
     Verdict,
     compared,
     worst,
@@ -63,10 +65,18 @@ class ComparedPair:
         """The earlier horizon of both [s]; beyond it single impacts are no result of a run."""
         return min(self.reference.horizon, self.other.horizon)
 
+    def rows(self) -> Iterator[Row]:
+        """The table of the comparison: the rows of all channels, then the channels that are not comparable."""
+        for channel in self.channels.values():
+            yield from channel.rows
+        for name, reason in self.left_out.items():
+            yield Row(name, "", "", verdict="not comparable", reason=reason)
+
     @property
     def verdict(self) -> Verdict:
-        """The worst of those on the channels."""
-        return worst(channel.verdict for channel in self.channels.values())
+        """The worst of those on the channels with a tolerance; if there is none, of those on all."""
+        judged = [channel for channel in self.channels.values() if channel.tolerance is not None]
+        return worst(channel.verdict for channel in judged or self.channels.values())
 
     @property
     def faults(self) -> list[str]:
@@ -82,9 +92,21 @@ class FilesCompared:
     pairs: tuple[ComparedPair, ...]
 
     @property
+    def has_tolerance(self) -> bool:
+        """Whether any channel has a tolerance."""
+        channels = [channel for pair in self.pairs for channel in pair.channels.values()]
+        return any(channel.tolerance is not None for channel in channels)
+
+    @property
     def verdict(self) -> Verdict:
-        """Whether all channels of all files are within their tolerances; "no tolerance" if none was given."""
-        return worst(pair.verdict for pair in self.pairs)
+        """The worst of the verdicts on the files; of channels without a tolerance only if none has it."""
+        judged = [pair for pair in self.pairs if FilesCompared(self.reference, (pair,)).has_tolerance]
+        return worst(pair.verdict for pair in (judged if self.has_tolerance else self.pairs))
+
+    @property
+    def failed(self) -> bool:
+        """Whether a channel is not within its tolerance, or not decided."""
+        return self.has_tolerance and self.verdict in FAILED
 
 
 def compare_files(
@@ -211,8 +233,13 @@ def _common(
     asked = matching(mine, patterns) if patterns else _usual(reference, other)
     lacking = [name for name in named if name in mine and name not in its]
     if lacking or its.keys().isdisjoint(asked):
+        shown = "; ".join(f"{file.name} has {first_names(list(file.columns))}" for file in (reference, other))
+        first, second = (next(iter(columns)) for columns in (mine, its))
         what = f"{lacking[0]}: {other.name} has no such channel" if lacking else "no channel in common"
-        raise InputError(f"{what}; {_way_out(reference, other)}")
+        raise InputError(
+            f"{what}; {shown}; allowed: columns called as channels, or --map compare.toml, which says which "
+            f'column is which: [files."{other.path.name}".columns] "{first}" = "{second}"'
+        )
     units, left_out = {}, {name: f"{other.name} has no such channel" for name in asked if name not in its}
     for name in asked:
         if name in left_out:
@@ -239,17 +266,6 @@ def _usual(reference: ComparedFile, other: ComparedFile) -> list[str]:
     return list(dict.fromkeys([*mapped, *usual]))
 
 
-def _way_out(reference: ComparedFile, other: ComparedFile) -> str:
-    """The names of channels in both files, and how to map one to another."""
-    files = (reference, other)
-    shown = "; ".join(f"{file.name} has {first_names(list(file.columns))}" for file in files)
-    first, second = (next(iter(file.columns)) for file in files)
-    return (
-        f"{shown}; allowed: columns called as channels, or --map compare.toml, which says which "
-        f'column is which: [files."{other.path.name}".columns] "{first}" = "{second}"'
-    )
-
-
 def first_names(names: Sequence[str]) -> str:
     """The first of some names, and how many more there are."""
     more = f" and {len(names) - SHOWN} more" if len(names) > SHOWN else ""
@@ -264,11 +280,9 @@ def _channel_unit(reference: ComparedFile, other: ComparedFile, channel: str) ->
     files = (reference, other)
     units = [file.columns[channel].unit for file in files]
     known = [unit for unit in units if unit is not None]
-    of_runs = [
-        unit for file, unit in zip(files, units, strict=True) if file.run is not None and unit is not None
-    ]
+    of_runs = [file.columns[channel].unit for file in files if file.run is not None]
     for unit in of_runs[:1] or map(_si_unit, known):  # g may be an acceleration, not where kg are
-        if len(known) == len(files) and all(_of_a_kind(each, unit) for each in known):
+        if unit is not None and len(known) == len(files) and all(_of_a_kind(each, unit) for each in known):
             return unit
     lacking = files[units.index(None)] if None in units else other
     column = lacking.mapped.get(channel, channel)

@@ -177,7 +177,7 @@ def closeness(
             f"{unknown[0]}: no numerical error is known; allowed: a tolerance, such as '2 %', or runs with an "
             "accuracy"
         )
-    return sorted(close, key=lambda channel: channel.verdict == "within")
+    return sorted(close, key=lambda channel: not channel.faults)
 
 
 def _rule(allowed: float | str | None) -> Tolerance:

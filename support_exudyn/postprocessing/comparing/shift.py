@@ -66,7 +66,11 @@ def time_shift(reference_time: Values, reference: Values, other_time: Values, ot
     spacing = min(float(np.median(np.diff(time))) for time, _ in known)
     if max(np.ptp(time) for time, _ in known) > MOST * spacing:
         raise InputError(f"more than {MOST} samples of {spacing:g} s would be needed; allowed: a shorter piece")
-    mine, its = (_sampled(time, values, spacing) for time, values in known)
+    counts = [int(np.ptp(time) / spacing * (1.0 + 1e-6) + 1e-6) + 1 for time, _ in known]
+    mine, its = (
+        np.interp(time[0] + spacing * np.arange(count), time, values)
+        for (time, values), count in zip(known, counts, strict=True)
+    )
     lags, heights = _correlations(mine, its)
     best = int(heights.argmax())
     peaks, _ = signal.find_peaks(heights, prominence=APART)
@@ -83,12 +87,6 @@ def time_shift(reference_time: Values, reference: Values, other_time: Values, ot
         correlation=1.0 - float(between.fun),
         next_best=max(heights[peaks[peaks != best]].tolist(), default=math.nan),
     )
-
-
-def _sampled(time: Values, values: Values, spacing: float) -> Values:
-    """A curve at evenly spaced times from its first one on, by straight lines."""
-    count = int(np.ptp(time) / spacing * (1.0 + 1e-6) + 1e-6) + 1
-    return np.asarray(np.interp(time[0] + spacing * np.arange(count), time, values))
 
 
 def _correlations(mine: Values, its: Values) -> tuple[npt.NDArray[np.intp], Values]:

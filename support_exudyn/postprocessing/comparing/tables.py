@@ -1,105 +1,88 @@
-"""A comparison as a table with notes, as data for scripts, as JUnit XML for test servers."""
+"""The rows of a comparison for a terminal, as CSV, as data for scripts, as JUnit XML; and its notes."""
 
 from __future__ import annotations
 
+import csv
 import math
 import xml.etree.ElementTree as ElementTree
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from support_exudyn.files.whole_file import whole_file
-from support_exudyn.postprocessing.comparing.compared_channel import ComparedChannel, Verdict
+from support_exudyn.postprocessing.comparing.compared_channel import ComparedChannel, Row, Verdict
 from support_exudyn.postprocessing.comparing.files_compared import ComparedPair, FilesCompared, first_names
+from support_exudyn.postprocessing.comparing.mapping import PERCENT
 from support_exudyn.postprocessing.comparing.measures import CONFIDENCE
 from support_exudyn.postprocessing.figures.selection import CLEARANCE
-from support_exudyn.postprocessing.figures.units import readable_change, said
+from support_exudyn.postprocessing.figures.units import DisplayUnit, readable_change, said
 from support_exudyn.postprocessing.page.pieces import Sheet
 from support_exudyn.postprocessing.shown_numbers import to_error
 from support_exudyn.simulation.estimate import Estimate
 from user_forces.values.value import cleaned
 
-NAME = "support-exudyn compare"
-HEADER = (
-    "channel", "unit", "reference, mean", "difference, mean", "largest", "at [s]", "RMS/range", "C",
-    "beyond errors", "verdict",
-)  # fmt: skip
-DIGITS = 6  # of numbers without a known error
-MOST_DIGITS = 9  # of numbers with their errors
-CERTAIN = 10.0  # times the numerical errors from which on a difference is certain: errors are estimates
+HEADER = ("channel", "measure", "unit", "reference", "other", "difference", "tolerance", "verdict")
+DIGITS, MOST_DIGITS = 6, 9  # of numbers without a known error, and with it
 VERDICTS: dict[Verdict, str] = {
-    "within": "All channels are within their tolerances.",
-    "not within": "Not all channels are within their tolerances.",
+    "agrees": "All channels agree.",
+    "differs within tolerance": "All channels are within their tolerances.",
+    "differs": "Not all channels are within their tolerances.",
     "not decided": "Whether all channels are within their tolerances is not decided.",
-    "no tolerance": "No tolerance was given: nothing is judged.",
+    "not comparable": "No channel is comparable.",
 }
 
 
+def conclusion(compared: FilesCompared) -> str:
+    """The verdict on all files as a sentence."""
+    return (
+        VERDICTS[compared.verdict] if compared.has_tolerance else "No tolerance was given: nothing is judged."
+    )
+
+
 def table(pair: ComparedPair) -> Sheet:
-    """The table of a comparison: a row for each channel. The title states files, times and errors."""
+    """The table of a comparison: its rows in the units in which they are read best."""
     times = [channel.common.time for channel in pair.channels.values()]
     first, last = min(time[0] for time in times), max(time[-1] for time in times)
     known = [file.name for file in (pair.reference, pair.other) if file.has_errors]
     errors = f"± numerical errors of {' and '.join(known)}" if known else "numerical errors not known"
-    header = HEADER if pair.verdict != "no tolerance" else HEADER[:-1]
     return Sheet(
         f"{pair.other.name} less {pair.reference.name}, {first:g} to {last:g} s ({errors})",
-        header,
-        tuple(_row(channel)[: len(header)] for channel in pair.channels.values()),
+        HEADER,
+        tuple(cells for channel in pair.channels.values() for cells in _cells(channel)),
         "Means are over all times; largest difference, RMS over the reference's range and C of Sprague and "
-        "Geers over those before the horizon. Beyond errors: no, if the numerical errors explain all "
-        f"differences; yes from {CERTAIN:g} times these errors on; uncertain between.",
-        left=2,
+        "Geers over those before the horizon.",
+        left=3,
     )
 
 
-def _row(channel: ComparedChannel) -> tuple[str, ...]:
-    """The cells of a channel, in the unit in which its mean and its differences are read best."""
-    largest, measures = channel.largest, channel.measures
-    apart = largest.value if math.isfinite(largest.value) else abs(channel.mean.value)
-    unit = readable_change(channel.unit, max(abs(mean.value) for mean in channel.means[:2]), apart)
-    return (
-        channel.name,
-        unit.name,
-        _number(unit.scale * channel.means[0].value),
-        _with_error(channel.mean, unit.scale),
-        _with_error(largest._replace(value=measures.largest), unit.scale),
-        _number(measures.largest_time),
-        _number(100.0 * measures.rms_of_range, 3, " %"),
-        _number(100.0 * measures.combined_error, 3, " %"),
-        beyond_errors(channel),
-        verdict_words(channel),
-    )
+def _cells(channel: ComparedChannel) -> Iterator[tuple[str, ...]]:
+    """The cells of the rows of a channel, in the unit in which its mean and its differences are read best."""
+    largest = channel.largest.value
+    apart = largest if math.isfinite(largest) else abs(channel.mean.value)
+    shown = readable_change(channel.unit, max(abs(mean.value) for mean in channel.means[:2]), apart)
+    for row in channel.rows:
+        unit = DisplayUnit(PERCENT, 1.0) if row.unit == PERCENT else shown
+        digits = 3 if row.unit == PERCENT else DIGITS
+        tolerance = channel.tolerance.text if channel.tolerance is not None and row.verdict else ""
+        when = f", at {row.time:.6g} s" if math.isfinite(row.time) else ""
+        sides = (_number(unit.scale * side, digits) for side in (row.reference, row.other))
+        difference = _with_error(row, unit.scale, digits)
+        yield row.channel, f"{row.measure}{when}", unit.name, *sides, difference, tolerance, row.verdict or ""
 
 
-def _number(value: float, digits: int = DIGITS, unit: str = "") -> str:
-    return "-" if math.isnan(value) else f"{value:.{digits}g}{unit}"
+def _number(value: float, digits: int) -> str:
+    return "" if math.isnan(value) else f"{value:.{digits}g}"
 
 
-def _with_error(number: Estimate, scale: float) -> str:
-    """A number in a unit, with its error if that is known."""
-    if math.isnan(number.value) or math.isnan(number.error):
-        return _number(scale * number.value)
-    shown = to_error(number, scale, MOST_DIGITS)
-    return shown if math.isfinite(number.error) else f"{_number(scale * number.value)} ± not known"
-
-
-def beyond_errors(channel: ComparedChannel) -> str:
-    """Whether the curves differ by more than their numerical errors, in a word; "-" if no error is known."""
-    times = channel.over_errors
-    if math.isnan(times):
-        return "-"
-    return "no" if times <= 1.0 else "yes" if times >= CERTAIN else "uncertain"
-
-
-def verdict_words(channel: ComparedChannel) -> str:
-    """The verdict on a channel, with its tolerance."""
-    if channel.tolerance is None:
-        return "no tolerance"
-    words = {"within": "within ", "not within": "NOT within "}.get(channel.verdict, "not decided, ")
-    return f"{words}{channel.tolerance.text}"
+def _with_error(row: Row, scale: float, digits: int) -> str:
+    """A difference in a unit, with its error if that is known."""
+    if math.isnan(row.difference) or math.isnan(row.error):
+        return _number(scale * row.difference, digits)
+    if math.isinf(row.error):
+        return f"{_number(scale * row.difference, digits)} ± not known"
+    return to_error(Estimate(row.difference, row.error, row.unit), scale, MOST_DIGITS)
 
 
 # --- notes ---
@@ -172,6 +155,7 @@ def as_data(compared: FilesCompared) -> dict[str, Any]:
         "reference": compared.reference.path,
         "kind": compared.reference.kind,
         "verdict": compared.verdict,
+        "failed": compared.failed,
         "files": {
             pair.other.name: {
                 "path": pair.other.path,
@@ -188,7 +172,7 @@ def as_data(compared: FilesCompared) -> dict[str, Any]:
     }
 
 
-def _channel_data(channel: ComparedChannel) -> Mapping[str, Any]:
+def _channel_data(channel: ComparedChannel) -> dict[str, Any]:
     reference, other, mean = (number._asdict() for number in channel.means)
     return {
         "unit": channel.unit,
@@ -201,11 +185,24 @@ def _channel_data(channel: ComparedChannel) -> Mapping[str, Any]:
         "mean": mean,
         "largest": channel.largest._asdict(),
         "over_errors": channel.over_errors,
+        "beyond_errors": channel.beyond_errors,
         "measures": channel.measures._asdict(),
         "statistics": {
             name: {**each._asdict(), "equal": each.equal} for name, each in channel.statistics.items()
         },
+        "rows": [row._asdict() for row in channel.rows],
     }
+
+
+def write_csv(compared: FilesCompared, path: Path) -> None:
+    """Write all rows as CSV in SI, whole or not at all; empty cells where a number is not known."""
+    with whole_file(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(("file", *Row._fields))
+        for pair in compared.pairs:
+            for row in pair.rows():
+                cells = ("" if each is None or each != each else each for each in row)
+                writer.writerow((pair.other.name, *cells))
 
 
 def write_junit(compared: FilesCompared, path: Path) -> None:
@@ -221,16 +218,16 @@ def write_junit(compared: FilesCompared, path: Path) -> None:
         element.text = cleaned(text) or None
         return element
 
-    whole = ElementTree.Element("testsuites", name=NAME)
+    whole = ElementTree.Element("testsuites", name="support-exudyn compare")
     for pair in compared.pairs:
         suite = within(whole, "testsuite", name=f"{pair.other.name} less {pair.reference.name}", errors="0")
-        for name in (*pair.channels, *pair.left_out):
+        for name, channel in pair.channels.items():
             case = within(suite, "testcase", classname=pair.other.name, name=name)
-            if name in pair.left_out:
-                within(case, "skipped", message=pair.left_out[name])
-            elif faults := pair.channels[name].faults:
-                verdict = pair.channels[name].verdict
-                within(case, "failure", "\n".join(faults), type=verdict, message=faults[0])
+            if faults := channel.faults:
+                within(case, "failure", "\n".join(faults), type=channel.verdict, message=faults[0])
+        for name, reason in pair.left_out.items():
+            case = within(suite, "testcase", classname=pair.other.name, name=name)
+            within(case, "skipped", message=reason)
         if text := "\n".join(notes(pair)):
             within(suite, "system-out", text)
     for counted in (whole, *whole):

@@ -47,33 +47,33 @@ FINE = np.linspace(0.0, 1.0, 1001)
     ("now", "was", "allowed", "verdict", "apart"),
     [
         # without a tolerance both errors are allowed
-        (Estimate(1.05, 0.04, "N"), Estimate(1.0, 0.1, "N"), None, "within", 0.05),
-        (Estimate(1.15, 0.04, "N"), Estimate(1.0, 0.1, "N"), None, "not within", 0.15),
-        (Estimate(1500.0, 1.0, "N"), Estimate(1.5, 1e-3, "kN"), None, "within", 0.0),
+        (Estimate(1.05, 0.04, "N"), Estimate(1.0, 0.1, "N"), None, "differs within tolerance", 0.05),
+        (Estimate(1.15, 0.04, "N"), Estimate(1.0, 0.1, "N"), None, "differs", 0.15),
+        (Estimate(1500.0, 1.0, "N"), Estimate(1.5, 1e-3, "kN"), None, "differs within tolerance", 0.0),
         (Estimate(1.1, math.inf, "N"), Estimate(1.0, 0.1, "N"), None, "not decided", 0.1),
         # a share is of a number's reference
-        (1.019, 1.0, 0.02, "within", 0.019),
-        (1.021, 1.0, "2 %", "not within", 0.021),
-        (1e-9, 0.0, 0.01, "not within", 1e-9),
-        (Estimate(0.0015, 0.0, "m"), 0.0017, "0.3 mm", "within", 2e-4),
-        (Estimate(0.0015, 0.0, "m"), 0.0017, "0.1 mm", "not within", 2e-4),
+        (1.019, 1.0, 0.02, "differs within tolerance", 0.019),
+        (1.021, 1.0, "2 %", "differs", 0.021),
+        (1e-9, 0.0, 0.01, "differs", 1e-9),
+        (Estimate(0.0015, 0.0, "m"), 0.0017, "0.3 mm", "differs within tolerance", 2e-4),
+        (Estimate(0.0015, 0.0, "m"), 0.0017, "0.1 mm", "differs", 2e-4),
         # an error that is larger than the tolerance decides nothing, unless the difference is larger still
         (Estimate(1.0, 0.5, "N"), 1.1, 0.2, "not decided", 0.1),
-        (Estimate(9.0, 0.5, "N"), 1.1, 0.2, "not within", 7.9),
+        (Estimate(9.0, 0.5, "N"), 1.1, 0.2, "differs", 7.9),
         # a share is of a curve's range
-        (curve(OFF), curve(SINE), "2 %", "not within", 0.05),
-        (curve(OFF), curve(SINE), "3 %", "within", 0.05),
-        (curve(OFF), curve(1e-3 * SINE, "m"), "51 um", "within", 0.05),
-        (curve(FINE**2, time=FINE), curve(TIME**2), 1e-4, "within", 0.0),
+        (curve(OFF), curve(SINE), "2 %", "differs", 0.05),
+        (curve(OFF), curve(SINE), "3 %", "differs within tolerance", 0.05),
+        (curve(OFF), curve(1e-3 * SINE, "m"), "51 um", "differs within tolerance", 0.05),
+        (curve(FINE**2, time=FINE), curve(TIME**2), 1e-4, "differs within tolerance", 0.0),
         # where the reference has no value there is nothing to compare with
-        (curve(TIME**2), curve(HOLES), 1e-4, "within", 0.0),
+        (curve(TIME**2), curve(HOLES), 1e-4, "differs within tolerance", 0.0),
         (curve(HOLES), curve(TIME**2), 1e-4, "not decided", 0.0),
     ],
 )
 def test_what_is_close(now: Any, was: Any, allowed: float | str | None, verdict: str, apart: float) -> None:
     (one,) = closeness(now, was, allowed)
     assert one.verdict == verdict
-    assert bool(one.faults) == (verdict != "within")
+    assert bool(one.faults) == (verdict != "differs within tolerance")
     assert one.largest.value == pytest.approx(apart, abs=1e-12)
 
 

@@ -138,7 +138,7 @@ def test_every_part_of_a_mapping_counts(
     found = compare_files(*files, mapping=written(tmp_path, OF_CSV.replace(replaced, by, 1)))
     one = found.pairs[0].channels[channel]
     assert one.largest.value == pytest.approx(apart, rel=0.02, abs=1e-5)
-    assert one.verdict == ("not within" if apart else "within")
+    assert one.verdict == ("differs" if apart else "differs within tolerance")
 
 
 @pytest.mark.parametrize(
@@ -192,12 +192,12 @@ def test_what_is_no_tolerance_is_refused(text: str) -> None:
 @pytest.mark.parametrize(
     ("value", "error", "allowed", "verdict"),
     [
-        (1.0, 0.0, 1.0, "within"),
-        (1.1, 0.0, 1.0, "not within"),
-        (0.5, 0.9, 1.0, "within"),
+        (1.0, 0.0, 1.0, "differs within tolerance"),
+        (1.1, 0.0, 1.0, "differs"),
+        (0.5, 0.9, 1.0, "differs within tolerance"),
         (0.5, 1.1, 1.0, "not decided"),  # it could be 1.6
-        (3.0, 1.1, 1.0, "not within"),  # it is 1.9 at least
-        (0.0, 0.0, 0.0, "within"),
+        (3.0, 1.1, 1.0, "differs"),  # it is 1.9 at least
+        (0.0, 0.0, 0.0, "differs within tolerance"),
         (math.nan, 0.0, 1.0, "not decided"),
         (0.1, math.inf, 1.0, "not decided"),
     ],
@@ -222,15 +222,15 @@ def wrapped(values: np.ndarray, low: float = -180.0) -> np.ndarray:
 @pytest.mark.parametrize(
     ("first", "second", "unit", "verdict"),
     [
-        (TURNED, wrapped(TURNED, 0.0), "deg", "within"),
-        (wrapped(TURNED), wrapped(TURNED, 0.0), "deg", "within"),
-        (SWUNG, wrapped(SWUNG), "deg", "within"),
-        (TURNED, TURNED - 720.0, "deg", "within"),
-        (TURNED, np.radians(wrapped(TURNED) + 360.0), "rad", "within"),
-        (TURNED, 2.0 * TURNED, "deg", "not within"),  # apart by full turns at the end only
-        (TURNED, TURNED + 180.0, "deg", "not within"),
-        (TURNED, TURNED + 360.0, "deg/s", "not within"),
-        (TURNED, wrapped(TURNED), "mm", "not within"),
+        (TURNED, wrapped(TURNED, 0.0), "deg", "differs within tolerance"),
+        (wrapped(TURNED), wrapped(TURNED, 0.0), "deg", "differs within tolerance"),
+        (SWUNG, wrapped(SWUNG), "deg", "differs within tolerance"),
+        (TURNED, TURNED - 720.0, "deg", "differs within tolerance"),
+        (TURNED, np.radians(wrapped(TURNED) + 360.0), "rad", "differs within tolerance"),
+        (TURNED, 2.0 * TURNED, "deg", "differs"),  # apart by full turns at the end only
+        (TURNED, TURNED + 180.0, "deg", "differs"),
+        (TURNED, TURNED + 360.0, "deg/s", "differs"),
+        (TURNED, wrapped(TURNED), "mm", "differs"),
     ],
 )
 def test_angles_are_compared_modulo_full_turns(
