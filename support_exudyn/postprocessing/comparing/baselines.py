@@ -127,13 +127,14 @@ def changes(old: KeptRun, new: KeptRun) -> list[RunChange]:
     """
     was, now = dict(_leaves(old.scenario)), dict(_leaves(new.scenario))
     keys = [
-        *(RunChange("gone", "key", name, str(was[name])) for name in was if name not in now),
-        *(RunChange("new", "key", name, str(now[name])) for name in now if name not in was),
-        *(
-            RunChange("changed", "key", name, f"{was[name]} -> {now[name]}")
-            for name in was
-            if name in now and was[name] != now[name]
-        ),
+        RunChange(
+            "gone" if name not in now else "new" if name not in was else "changed",
+            "key",
+            name,
+            " -> ".join(str(side[name]) for side in (was, now) if name in side),
+        )
+        for name in sorted({*was, *now})
+        if name not in was or name not in now or was[name] != now[name]
     ]
     rest = list(_changed_columns("channel", old.curves, new.curves, min(old.horizon, new.horizon)))
     if math.isinf(old.horizon) == math.isinf(new.horizon):
@@ -142,14 +143,14 @@ def changes(old: KeptRun, new: KeptRun) -> list[RunChange]:
             for run in (old, new)
         )
         rest += _changed_columns("number", mine, its, math.inf)
-    return [*sorted(keys), *sorted(rest, key=lambda change: (-change.ratio, change.name))]
+    return [*keys, *sorted(rest, key=lambda change: (-change.ratio, change.name))]
 
 
 def _changed_columns(
     what: str, old: Mapping[str, ComparedColumn], new: Mapping[str, ComparedColumn], end: float
 ) -> Iterator[RunChange]:
     """Changes of curves up to a time [s], or of numbers: both errors are what is allowed."""
-    for name in [*old, *(name for name in new if name not in old)]:
+    for name in dict.fromkeys([*old, *new]):
         if name not in old or name not in new:
             yield RunChange("gone" if name in old else "new", what, name)
             continue
@@ -192,7 +193,7 @@ def write_baseline(kept: KeptRun, path: Path) -> None:
         "provenance": dict(kept.provenance),
         "horizon_s": kept.horizon if math.isfinite(kept.horizon) else None,
         "numbers": {
-            name: f"{_value(number.value)} {_text([number.error], OF_ERRORS)} {number.unit}"
+            name: f"{float(number.value)!r} {_text([number.error], OF_ERRORS)} {number.unit}"
             for name, number in kept.numbers.items()
         },
         "time_s": _text(time.tolist(), DIGITS),
@@ -209,10 +210,6 @@ def write_baseline(kept: KeptRun, path: Path) -> None:
     text = json.dumps(data, indent=1, allow_nan=False)
     with whole_file(path) as temporary:
         temporary.write_text(f"{text}\n", encoding="utf-8", newline="\n")
-
-
-def _value(value: float) -> str:
-    return repr(float(value)) if math.isfinite(value) else "nan"
 
 
 def _text(values: Iterable[float], digits: int) -> str:
@@ -245,24 +242,22 @@ def read_baseline(path: Path) -> KeptRun:
 
 
 def _estimate(value: str, error: str, unit: str) -> Estimate:
-    """A number and its error, which is infinite if it is not known."""
-    return Estimate(float(value), float(_known_errors(_numbers(error))[0]), unit)
+    return Estimate(float(value), float(_numbers(error, math.inf)[0]), unit)
 
 
 def _curve(time: Series, unit: str | None, values: str, errors: str) -> ComparedColumn:
-    """A curve; errors that are not known are infinite. Raises ValueError if it has not as many as times."""
-    column = ComparedColumn(unit, time, _numbers(values), _known_errors(_numbers(errors)))
+    """A curve. Raises ValueError if it has not as many values and errors as times."""
+    column = ComparedColumn(unit, time, _numbers(values), _numbers(errors, math.inf))
     if not column.values.size == column.errors.size == time.size:
         raise ValueError("a curve has more or fewer values than there are times")
     return column
 
 
-def _known_errors(errors: Series) -> Series:
-    return np.where(np.isnan(errors), math.inf, errors)
-
-
-def _numbers(text: str) -> Series:
-    return np.array([float(word) for word in text.split()], dtype=np.float64)
+def _numbers(text: str, unknown: float = math.nan) -> Series:
+    """The numbers of a text; unknown: what stands for nan, infinite of errors."""
+    return np.nan_to_num(
+        np.array(text.split(), dtype=np.float64), nan=unknown, posinf=math.inf, neginf=-math.inf
+    )
 
 
 # --- the scenarios of a folder ---

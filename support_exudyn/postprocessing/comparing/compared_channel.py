@@ -33,6 +33,7 @@ WORST_FIRST: tuple[Verdict, ...] = (
     "differs", "not decided", "differs within tolerance", "agrees", "not comparable",
 )  # fmt: skip
 FAILED: tuple[Verdict, ...] = ("differs", "not decided")  # if there is a tolerance
+LARGEST = "largest"  # the measure that is judged
 ANGLE, TURN = "rad", 2.0 * math.pi
 LEFT_OF_A_TURN = 1e-6  # share by which a file's digits may leave the range of a wrapped angle
 ROUNDING = 1e-9  # share of what is allowed: 1.1 - 1.0 is 0.1, in whatever digits
@@ -115,19 +116,6 @@ class Row(NamedTuple):
     reason: str = ""
 
 
-def _differs(row: Row) -> str:
-    """Both values of a row, when they are, and by how much they differ, in words."""
-    at = f" at {row.time:.6g} s" if math.isfinite(row.time) else ""
-    what = "" if row.measure == "largest" else f"the {row.measure} is "
-    values = f"{what}{row.other:.9g} {row.unit}{at}, where the reference is {row.reference:.9g},"
-    return f"{values} differs by {said(abs(row.difference), row.unit, 4)}"
-
-
-def _error_text(row: Row) -> str:
-    known = math.isfinite(row.error)
-    return f"the numerical error of {said(row.error, row.unit, 2)}" if known else "an unknown numerical error"
-
-
 def decide(value: float, error: float, allowed: float) -> Verdict:
     """Whether the magnitude of a difference is within what is allowed.
 
@@ -202,9 +190,8 @@ class ComparedChannel:
     def beyond_errors(self) -> str:
         """Whether the curves differ by more than their numerical errors: no, uncertain, yes; "-": not known."""
         times = self.over_errors
-        return (
-            "-" if math.isnan(times) else "no" if times <= 1.0 else "yes" if times >= CERTAIN else "uncertain"
-        )
+        words = ((1.0, "no"), (math.nextafter(CERTAIN, 0.0), "uncertain"), (math.inf, "yes"))
+        return next((word for limit, word in words if times <= limit), "-")
 
     @property
     def gaps(self) -> int:
@@ -239,13 +226,14 @@ class ComparedChannel:
         the same to the bit have the same errors, whatever these are. Without numerical errors that of
         interpolation counts.
         """
-        row = Row(self.name, self.unit, "largest", tolerance=self.allowed)
+        row = Row(self.name, self.unit, LARGEST, tolerance=self.allowed)
         if self.gaps:
-            reason = f"no value at {self.gaps} times at which the reference has a value"
-            row = row._replace(verdict="not decided", reason=f"not decided: {reason}")
+            reason = f"not decided: no value at {self.gaps} times at which the reference has a value"
+            row = row._replace(verdict="not decided", reason=reason)
+        elif math.isnan(self.measures.largest) and not self.statistics:
+            row = row._replace(verdict="not decided", reason="not decided: there are no two common values")
         if math.isnan(self.measures.largest):
-            reason = "not decided: there are no two common values"
-            return row if self.gaps or self.statistics else row._replace(verdict="not decided", reason=reason)
+            return row
         times, at = self.over_errors, self._largest_at
         by_errors = self.tolerance is None or self.tolerance.is_errors
         if by_errors and times > 1.0:
@@ -262,44 +250,40 @@ class ComparedChannel:
         if np.array_equal(self.common.reference, self.common.other, equal_nan=True):
             return row._replace(verdict="agrees", reason="is the same")
         if self.tolerance is not None and self.tolerance.is_errors:
-            return self._judged(row._replace(tolerance=row.error), times <= 1.0)
-        if self.tolerance is not None:
-            return self._judged(row, times <= 1.0, float(self.common.interpolation_error[at]))
-        return self._by_errors(row)
+            row = row._replace(tolerance=row.error)
+        return self._judged(row, times <= 1.0, float(self.common.interpolation_error[at]))
 
     def _judged(self, row: Row, agrees: bool, interpolation: float = math.nan) -> Row:
-        """A row with the verdict by its tolerance; agrees: whether the numerical errors explain the difference.
+        """A row with its verdict and the reason, by the tolerance, or by the numerical errors.
 
-        interpolation: the error where that of the row is not known.
+        agrees: whether the numerical errors explain the difference. interpolation: the error where that of the
+        row is not known.
         """
-        assert self.tolerance is not None
+        times, rule = self.over_errors, self.tolerance
         error = interpolation if math.isnan(row.error) else row.error
-        bound = f"the tolerance of {said(row.tolerance, self.unit, 4)} ({self.tolerance.text})"
-        if self.tolerance.is_errors:
-            error, bound = (math.nan if math.isnan(self.over_errors) else 0.0), _error_text(row)
-        verdict = decide(abs(row.difference), error, row.tolerance)
-        if agrees and verdict == "differs within tolerance":
-            return row._replace(verdict="agrees", reason=f"{_differs(row)}, within the numerical error")
-        reason = f"{_differs(row)}, {'more' if verdict == 'differs' else 'not more'} than {bound}"
+        known = f"the numerical error of {said(error, row.unit, 2)}"
+        if rule is None or rule.is_errors:
+            bound, certain = known, 1.0 if rule else CERTAIN
+            verdict: Verdict = "agrees" if times <= 1.0 else "not decided" if times < certain else "differs"
+            if math.isnan(times):
+                bound, verdict = "the numerical error, which is not known", "not decided" if rule else "differs"
+        else:
+            bound = f"the tolerance of {said(row.tolerance, row.unit, 4)} ({rule.text})"
+            verdict = decide(abs(row.difference), error, row.tolerance)
+        at = f" at {row.time:.6g} s" if math.isfinite(row.time) else ""
+        what = "" if row.measure == LARGEST else f"the {row.measure} is "
+        values = f"{what}{row.other:.9g} {row.unit}{at}, where the reference is {row.reference:.9g}"
+        reason = f"{values}, differs by {said(abs(row.difference), row.unit, 4)}, "
+        if verdict == "agrees" or (agrees and verdict == "differs within tolerance"):
+            return row._replace(verdict="agrees", reason=f"{reason}within {known}")
         if verdict == "not decided":
-            known = said(error, self.unit, 2) if math.isfinite(error) else "not known"
-            reason = f"{_differs(row)}, which is not decided: the numerical error is {known}, against {bound}"
-        if not row.tolerance and self.tolerance.unit == PERCENT:
+            with_error = "" if bound == known else f" with {known}" if math.isfinite(error) else ""
+            reason += f"not decided by {bound}{with_error}"
+        else:
+            reason += f"{'not ' if verdict == 'differs within tolerance' else ''}more than {bound}"
+        if rule is not None and rule.unit == PERCENT and not row.tolerance:
             reason += "; the reference is constant: give an amount with its unit"
         return row._replace(verdict=verdict, reason=reason)
-
-    def _by_errors(self, row: Row) -> Row:
-        """A row with the verdict by its numerical error alone."""
-        times = self.over_errors
-        if math.isnan(times):
-            reason = f"{_differs(row)}; there is no tolerance, and no numerical error is known"
-            return row._replace(verdict="differs", reason=reason)
-        if times <= 1.0:
-            return row._replace(verdict="agrees", reason=f"{_differs(row)}, within the numerical error")
-        reason = f"{_differs(row)}, more than {_error_text(row)}"
-        if times < CERTAIN:
-            reason = f"{reason}, but less than {CERTAIN:g} times, so that is not certain"
-        return row._replace(verdict="not decided" if times < CERTAIN else "differs", reason=reason)
 
     @property
     def verdict(self) -> Verdict:

@@ -51,8 +51,7 @@ FEW = 5  # changes in the message of a failure
 def cached_run(folder: Path, scenario: Scenario, errors: bool = False) -> Result:
     """The run of a scenario in a folder, made if it is not there or damaged; always read from its file.
 
-    The key of a run is that of sweeps: all fields of the scenario, versions of packages, a digest of our
-    sources and of modules of one's own. Several processes may use the folder: the first makes a run, others
+    The key of a run is that of sweeps. Several processes may use the folder: the first makes a run, others
     that ask for the same wait for it. A new run removes those that are older than `OLD`.
 
     Arguments:

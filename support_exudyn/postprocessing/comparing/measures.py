@@ -1,16 +1,8 @@
 """Two curves on common times: the join, the measures of their distance, and their statistics after the horizon.
 
-Common times are those of the coarser curve inside the overlap. The finer curve is interpolated there by
-straight lines, and the error of that is estimated. At a time that both have, both values are taken as they are.
-
 Integrals over time are sums by the trapezoid rule, so times may be unequally spaced. An interval counts if both
 curves are known at both of its ends. A measure without a value, such as a share of no range, is NaN.
-
-Beyond the horizon two curves are compared as pieces of steady processes: do their means and root mean squares
-differ by more than chance explains? Both are cut into the same `BLOCKS` blocks, so that a course that both
-follow, such as a stroke, drops out. Student's t gives the interval of the mean of the blocks' differences
-(batch means: C. Alexopoulos, A. F. Seila, "Output data analysis", in J. Banks (ed.), Handbook of Simulation,
-1998).
+`measures.md` has all formulas and sources.
 """
 
 import math
@@ -59,9 +51,10 @@ def on_common_times(
     after: float = -math.inf,
     until: float = math.inf,
 ) -> CommonCurves:
-    """Two curves at the times of the coarser of them, between two times [s].
+    """Two curves at the times of the coarser of them inside the overlap, between two times [s].
 
-    The coarser curve has the fewer times there; of equally many the reference.
+    The coarser curve has the fewer times there; of equally many the reference. The finer curve is interpolated
+    by straight lines, and the error of that is estimated. At a time that both have, both values are taken.
 
     Arguments:
         reference_time, other_time: [s], (n,) and (m,), increasing.
@@ -141,9 +134,7 @@ class CurveMeasures(NamedTuple):
     combined_error: C = sqrt(M^2 + P^2).
     times: number of times at which both are known.
 
-    Sources: M. A. Sprague and T. L. Geers, "A spectral-element method for modelling cavitation in transient
-    fluid-structure interaction", Int. J. Numer. Meth. Engng 60 (2004) 2467-2499; L. E. Schwer, "Validation
-    metrics for response histories: perspectives and case studies", Eng. with Computers 23 (2007) 295-309.
+    Sources of M, P and C: Sprague and Geers 2004, Schwer 2007, see `measures.md`.
     """
 
     largest: float = math.nan
@@ -241,7 +232,9 @@ class StatisticDifference(NamedTuple):
 def compared_statistics(first: Values, second: Values, among: int = 1) -> dict[str, StatisticDifference]:
     """The mean and the root mean square of two curves, by name; none if fewer than two values are known.
 
-    Neighbouring samples may be correlated as long as blocks are longer than the correlation lasts.
+    Both are cut into the same `BLOCKS` blocks, so that a course that both follow, such as a stroke, drops out.
+    Student's t gives the interval of the mean of the blocks' differences (batch means: Alexopoulos and Seila
+    1998). Neighbouring samples may be correlated as long as blocks are longer than the correlation lasts.
 
     Arguments:
         first, second: values of one unit at the same, evenly spaced times, (n,); NaN where one is not known.
