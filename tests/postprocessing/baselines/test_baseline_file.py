@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -54,26 +55,23 @@ def test_any_number_is_kept(value: float, error: float, name: str, tmp_path: Pat
     assert kept.error == pytest.approx(error, rel=0.01)
 
 
-@given(data=st.data())
-@settings(suppress_health_check=UNCHECKED)
-def test_a_damaged_file_is_refused_in_a_sentence(data: st.DataObject, tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    "damage",
+    [
+        lambda whole: whole[:-100],
+        lambda whole: whole.replace(b"0.3333333333333333 ", b"a third "),
+        lambda whole: whole.replace(b'"unit": "m"', b'"unity": "m"'),
+        lambda whole: whole.replace(b"baseline 2", b"baseline 1"),
+        lambda whole: whole.replace(b'"values": "', b'"values": "1 '),
+        lambda _: b"[]",
+        lambda _: b"\0",
+    ],
+)
+def test_a_damaged_file_is_refused_in_a_sentence(damage: Callable[[bytes], bytes], tmp_path: Path) -> None:
     path = tmp_path / "one.json"
     write_baseline(WHOLE, path)
-    whole = path.read_bytes()
-    place = data.draw(st.integers(0, len(whole) - 1))
-    damaged = data.draw(
-        st.sampled_from([
-            whole[:place],
-            whole[:place] + bytes([whole[place] ^ (1 << data.draw(st.integers(0, 7)))]) + whole[place + 1 :],
-            whole[:place] + data.draw(st.binary(min_size=1, max_size=3)) + whole[place:],
-            b"", b"[]", b"{}", b"\0", b"[" * 100_000, b'{"format": "support_exudyn baseline 1"}',
-        ])
-    )  # fmt: skip
-    path.write_bytes(damaged)
-    said, prefix = "", f"{path}: is no baseline, or damaged ("
-    try:
+    path.write_bytes(damage(path.read_bytes()))
+    with pytest.raises(InputError) as error:
         read_baseline(path)
-    except InputError as error:
-        said = str(error)
-    assert "\n" not in said
-    assert said.startswith(prefix) if said else json.loads(damaged)  # other digits or letters can be read
+    assert str(error.value).startswith(f"{path}: is no baseline, or damaged (")
+    assert "\n" not in str(error.value)

@@ -60,6 +60,11 @@ FINE = np.linspace(0.0, 1.0, 1001)
         # an error that is larger than the tolerance decides nothing, unless the difference is larger still
         (Estimate(1.0, 0.5, "N"), 1.1, 0.2, "not decided", 0.1),
         (Estimate(9.0, 0.5, "N"), 1.1, 0.2, "differs", 7.9),
+        (Estimate(0.5, 0.9, "N"), 0.0, "1 N", "agrees", 0.5),
+        (Estimate(0.5, 1.1, "N"), 0.0, "1 N", "not decided", 0.5),  # it could be 1.6
+        (Estimate(3.0, 1.1, "N"), 0.0, "1 N", "differs", 3.0),  # it is 1.9 at least
+        (Estimate(1.0, 0.0, "N"), 0.0, "1 N", "differs within tolerance", 1.0),
+        (Estimate(math.nan, 0.0, "N"), 0.0, "1 N", "not decided", math.nan),
         # a share is of a curve's range
         (curve(OFF), curve(SINE), "2 %", "differs", 0.05),
         (curve(OFF), curve(SINE), "3 %", "differs within tolerance", 0.05),
@@ -74,7 +79,7 @@ def test_what_is_close(now: Any, was: Any, allowed: float | str | None, verdict:
     (one,) = closeness(now, was, allowed)
     assert one.verdict == verdict
     assert bool(one.faults) == (verdict in ("differs", "not decided"))
-    assert one.largest.value == pytest.approx(apart, abs=1e-12)
+    assert one.largest.value == pytest.approx(apart, abs=1e-12, nan_ok=True)
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from support_exudyn import compare_files
-from support_exudyn.postprocessing.comparing.compared_channel import decide
 from support_exudyn.postprocessing.comparing.mapping import (
     MappedColumn,
     MappedFile,
@@ -51,36 +50,22 @@ def written(folder: Path, text: str, name: str = "compare.toml") -> Path:
 def test_a_whole_file_is_read(tmp_path: Path) -> None:
     seen = tmp_path / "seen_1.csv"
     found = read_compare_file(written(tmp_path, WHOLE), [seen, Path("rise.h5")])
-    mine, its = found.of(seen), found.of(Path("rise.h5"))
-    assert mine.columns == {
+    columns = {
         "tip.x": MappedColumn(column="Canopy X"),
         "pin.A.force": MappedColumn(column="Load cell", sign=-1, offset=0.5),
     }
-    assert (mine.shift, mine.analysis) == (pytest.approx(0.012), "Last_Run")
-    assert mine.units == {"Canopy*": "mm", "time": "s", "Load*": "kN"}
-    assert its == MappedFile()
+    units = {"Canopy*": "mm", "time": "s", "Load*": "kN"}
+    assert found.of(seen) == MappedFile(columns=columns, units=units, shift=0.012, analysis="Last_Run")
+    assert found.of(Path("rise.h5")) == MappedFile()
     assert [(one.pattern, one.text) for one in tolerances_of(found)] == [("tip.*", "0.1 mm"), ("pin.*", "2 %")]
-
-
-SCHEMA = """
-[files."seen.csv"]
-shift = 3
-[files."seen.csv".columns]
-"tip.x" = { column = "a", sign = 2 }
-"tip.y" = { sign = -1 }
-"""
-MEANING = """
-[files."other.csv"]
-[files."seen.csv".units]
-a = "?"
-"""
 
 
 @pytest.mark.parametrize(
     ("text", "parts"),
     [
         (
-            SCHEMA,
+            '[files."seen.csv"]\nshift = 3\n[files."seen.csv".columns]\n'
+            '"tip.x" = { column = "a", sign = 2 }\n"tip.y" = { sign = -1 }\n',
             (
                 "files.seen.csv.shift: is written with its unit; allowed: shift_s, shift_ms",
                 "files.seen.csv.columns.tip.x.sign = 2: allowed: 1, -1",
@@ -88,11 +73,8 @@ a = "?"
             ),
         ),
         (
-            MEANING,
-            (
-                "files.other.csv: no file of this name is compared",
-                "files.seen.csv.units.a = '?': allowed: a unit",
-            ),
+            '[files."other.csv"]\n[files."seen.csv".units]\na = "?"\n',
+            ("other.csv: no file of this name is compared", "files.seen.csv.units.a = '?': allowed: a unit"),
         ),
         ('[tolerances]\n"tip.*" = "2"\n', ("tolerances: 'tip.*' = '2': allowed: a share",)),
     ],
@@ -100,10 +82,8 @@ a = "?"
 def test_faults_are_reported_together(text: str, parts: tuple[str, ...], tmp_path: Path) -> None:
     with pytest.raises(InputError) as error:
         read_compare_file(written(tmp_path, text), [Path("seen.csv"), Path("rise.h5")])
-    message = str(error.value)
-    for part in parts:
-        assert part in message, part
-    assert message.count(f"{tmp_path / 'compare.toml'}: ") == len(parts)
+    assert [part for part in parts if part not in str(error.value)] == []
+    assert str(error.value).count(f"{tmp_path / 'compare.toml'}: ") == len(parts)
 
 
 @pytest.fixture
@@ -187,25 +167,6 @@ def test_what_is_no_tolerance_is_refused(text: str) -> None:
         read_tolerances(text)
     with pytest.raises(InputError, match=r"tolerance of tip\.x.*mm.*N"):
         tolerance("tip.*", "1 mm").in_si("tip.x", "N", 1.0)
-
-
-@pytest.mark.parametrize(
-    ("value", "error", "allowed", "verdict"),
-    [
-        (1.0, 0.0, 1.0, "differs within tolerance"),
-        (1.1, 0.0, 1.0, "differs"),
-        (0.5, 0.9, 1.0, "differs within tolerance"),
-        (0.5, 1.1, 1.0, "not decided"),  # it could be 1.6
-        (3.0, 1.1, 1.0, "differs"),  # it is 1.9 at least
-        (0.0, 0.0, 0.0, "differs within tolerance"),
-        (math.nan, 0.0, 1.0, "not decided"),
-        (0.1, math.inf, 1.0, "not decided"),
-    ],
-)
-def test_errors_larger_than_what_is_allowed_leave_it_open(
-    value: float, error: float, allowed: float, verdict: str
-) -> None:
-    assert decide(value, error, allowed) == verdict
 
 
 # --- angles ---
