@@ -15,8 +15,7 @@ from matplotlib import pyplot as plt
 from support_exudyn import ClearancePin, CubicStep, Scenario, machine, simulate
 from support_exudyn.files.series.read import read_series
 from support_exudyn.files.series.units import converted
-from support_exudyn.postprocessing.comparing.measures import curve_measures
-from support_exudyn.postprocessing.comparing.shift import time_shift
+from support_exudyn.postprocessing.comparing.measures import curve_measures, time_shift
 from support_exudyn.postprocessing.instruments.station import measure, read_station
 
 here = Path(__file__).parent

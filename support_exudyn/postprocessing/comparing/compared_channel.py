@@ -32,6 +32,10 @@ Verdict = Literal["differs", "not decided", "not comparable", "differs within to
 WORST_FIRST: tuple[Verdict, ...] = (
     "differs", "not decided", "differs within tolerance", "agrees", "not comparable",
 )  # fmt: skip
+THAN = {
+    "differs": "more than", "not decided": "not decided by", "differs within tolerance": "not more than",
+    "agrees": "within",
+}  # fmt: skip
 FAILED: tuple[Verdict, ...] = ("differs", "not decided")  # if there is a tolerance
 LARGEST = "largest"  # the measure that is judged
 ANGLE, TURN = "rad", 2.0 * math.pi
@@ -116,18 +120,6 @@ class Row(NamedTuple):
     reason: str = ""
 
 
-def decide(value: float, error: float, allowed: float) -> Verdict:
-    """Whether the magnitude of a difference is within what is allowed.
-
-    It is not decided if the error of the difference is larger than what is allowed and could turn the answer,
-    or if a difference or its error is not known: NaN, or infinite.
-    """
-    unsure = error > allowed and value - error <= allowed
-    if math.isnan(value) or not math.isfinite(error) or unsure:
-        return "not decided"
-    return "differs within tolerance" if value <= allowed * (1.0 + ROUNDING) else "differs"
-
-
 def worst(verdicts: Iterable[Verdict | None]) -> Verdict:
     """The verdict on all: the worst of those on each; "not comparable" if there is none."""
     each = set(verdicts)
@@ -187,13 +179,6 @@ class ComparedChannel:
         return largest if largest >= 0.0 else math.nan
 
     @property
-    def beyond_errors(self) -> str:
-        """Whether the curves differ by more than their numerical errors: no, uncertain, yes; "-": not known."""
-        times = self.over_errors
-        words = ((1.0, "no"), (math.nextafter(CERTAIN, 0.0), "uncertain"), (math.inf, "yes"))
-        return next((word for limit, word in words if times <= limit), "-")
-
-    @property
     def gaps(self) -> int:
         """Number of times at which the other curve is not known and the reference is."""
         return int(np.count_nonzero(np.isfinite(self.common.reference) & ~np.isfinite(self.common.other)))
@@ -222,65 +207,66 @@ class ComparedChannel:
     def _largest_row(self) -> Row:
         """The largest difference before the horizon, or the record that decides, with its verdict.
 
-        With the errors as tolerance it is the record with the largest multiple of its error. Curves that are
-        the same to the bit have the same errors, whatever these are. Without numerical errors that of
-        interpolation counts.
+        Without a tolerance, and with the errors as tolerance, that is the record with the largest multiple of
+        its error. Curves that are the same to the bit have the same errors, whatever these are.
         """
-        row = Row(self.name, self.unit, LARGEST, tolerance=self.allowed)
+        row, common = Row(self.name, self.unit, LARGEST, tolerance=self.allowed), self.common
+        unknown = math.isnan(self.measures.largest)
         if self.gaps:
             reason = f"not decided: no value at {self.gaps} times at which the reference has a value"
             row = row._replace(verdict="not decided", reason=reason)
-        elif math.isnan(self.measures.largest) and not self.statistics:
+        elif unknown and not self.statistics:
             row = row._replace(verdict="not decided", reason="not decided: there are no two common values")
-        if math.isnan(self.measures.largest):
+        if unknown:
             return row
-        times, at = self.over_errors, self._largest_at
-        by_errors = self.tolerance is None or self.tolerance.is_errors
-        if by_errors and times > 1.0:
+        at = self._largest_at
+        if (self.tolerance is None or self.tolerance.is_errors) and self.over_errors > 1.0:
             at = int(self._multiples.argmax())
         row = row._replace(
-            time=float(self.common.time[at]) if self.common.time.size > 1 else math.nan,
-            reference=float(self.common.reference[at]),
-            other=float(self.common.other[at]),
-            difference=float(self.common.difference[at]),
+            time=float(common.time[at]) if common.time.size > 1 else math.nan,
+            reference=float(common.reference[at]),
+            other=float(common.other[at]),
+            difference=float(common.difference[at]),
             error=float(self.errors[at]),
         )
         if row.verdict:
             return row
-        if np.array_equal(self.common.reference, self.common.other, equal_nan=True):
+        if np.array_equal(common.reference, common.other, equal_nan=True):
             return row._replace(verdict="agrees", reason="is the same")
-        if self.tolerance is not None and self.tolerance.is_errors:
-            row = row._replace(tolerance=row.error)
-        return self._judged(row, times <= 1.0, float(self.common.interpolation_error[at]))
+        return self._judged(row, self.over_errors <= 1.0, float(common.interpolation_error[at]))
 
     def _judged(self, row: Row, agrees: bool, interpolation: float = math.nan) -> Row:
         """A row with its verdict and the reason, by the tolerance, or by the numerical errors.
 
+        Not decided is a difference that is not known, or whose error is not known, or is larger than what is
+        allowed and could turn the answer.
+
         agrees: whether the numerical errors explain the difference. interpolation: the error where that of the
         row is not known.
         """
-        times, rule = self.over_errors, self.tolerance
+        times, rule, apart = self.over_errors, self.tolerance, abs(row.difference)
         error = interpolation if math.isnan(row.error) else row.error
         known = f"the numerical error of {said(error, row.unit, 2)}"
+        verdict: Verdict = "differs"
         if rule is None or rule.is_errors:
-            bound, certain = known, 1.0 if rule else CERTAIN
-            verdict: Verdict = "agrees" if times <= 1.0 else "not decided" if times < certain else "differs"
-            if math.isnan(times):
-                bound, verdict = "the numerical error, which is not known", "not decided" if rule else "differs"
+            bound = "the numerical error, which is not known" if math.isnan(times) else known
+            if (rule and math.isnan(times)) or (rule is None and 1.0 < times < CERTAIN):
+                verdict = "not decided"
         else:
             bound = f"the tolerance of {said(row.tolerance, row.unit, 4)} ({rule.text})"
-            verdict = decide(abs(row.difference), error, row.tolerance)
+            unsure = error > row.tolerance and apart - error <= row.tolerance
+            if math.isnan(apart) or not math.isfinite(error) or unsure:
+                verdict, bound = "not decided", f"{bound} with {known}"
+            elif apart <= row.tolerance * (1.0 + ROUNDING):
+                verdict = "differs within tolerance"
+        if agrees and (rule is None or rule.is_errors or verdict == "differs within tolerance"):
+            verdict, bound = "agrees", known
         at = f" at {row.time:.6g} s" if math.isfinite(row.time) else ""
         what = "" if row.measure == LARGEST else f"the {row.measure} is "
-        values = f"{what}{row.other:.9g} {row.unit}{at}, where the reference is {row.reference:.9g}"
-        reason = f"{values}, differs by {said(abs(row.difference), row.unit, 4)}, "
-        if verdict == "agrees" or (agrees and verdict == "differs within tolerance"):
-            return row._replace(verdict="agrees", reason=f"{reason}within {known}")
-        if verdict == "not decided":
-            with_error = "" if bound == known else f" with {known}" if math.isfinite(error) else ""
-            reason += f"not decided by {bound}{with_error}"
-        else:
-            reason += f"{'not ' if verdict == 'differs within tolerance' else ''}more than {bound}"
+        reason = (
+            f"{what}{row.other:.9g} {row.unit}{at}, where the reference is {row.reference:.9g}, differs by "
+            f"{said(apart, row.unit, 4)}, {THAN[verdict]} {bound}"
+        )
         if rule is not None and rule.unit == PERCENT and not row.tolerance:
             reason += "; the reference is constant: give an amount with its unit"
         return row._replace(verdict=verdict, reason=reason)

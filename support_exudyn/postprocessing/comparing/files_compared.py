@@ -14,7 +14,6 @@ from support_exudyn.files.series.named_series import Progress, silent
 from support_exudyn.files.series.units import scaled, unit_checked
 from support_exudyn.postprocessing import summary
 from support_exudyn.postprocessing.comparing.compared_channel import (
-    FAILED,
     ComparedChannel,
     Row,
     Verdict,
@@ -30,8 +29,7 @@ from support_exudyn.postprocessing.comparing.mapping import (
     read_tolerances,
     tolerances_of,
 )
-from support_exudyn.postprocessing.comparing.measures import STATISTICS
-from support_exudyn.postprocessing.comparing.shift import TimeShift, time_shift
+from support_exudyn.postprocessing.comparing.measures import STATISTICS, TimeShift, time_shift
 from support_exudyn.postprocessing.figures.selection import matching
 from support_exudyn.postprocessing.figures.units import QUANTITIES
 from support_exudyn.simulation.estimate import Estimate
@@ -75,13 +73,18 @@ class ComparedPair:
     @property
     def verdict(self) -> Verdict:
         """The worst of those on the channels with a tolerance; if there is none, of those on all."""
-        judged = [channel for channel in self.channels.values() if channel.tolerance is not None]
-        return worst(channel.verdict for channel in judged or self.channels.values())
+        return _verdict(list(self.channels.values()))
 
     @property
     def faults(self) -> list[str]:
         """Why channels are not within their tolerances, or not decided."""
         return [text for channel in self.channels.values() for text in channel.faults]
+
+
+def _verdict(channels: Sequence[ComparedChannel]) -> Verdict:
+    """The worst verdict on channels with a tolerance; if there is none, on all."""
+    judged = [channel for channel in channels if channel.tolerance is not None]
+    return worst(channel.verdict for channel in judged or channels)
 
 
 @dataclass(frozen=True)
@@ -92,21 +95,19 @@ class FilesCompared:
     pairs: tuple[ComparedPair, ...]
 
     @property
-    def has_tolerance(self) -> bool:
-        """Whether any channel has a tolerance."""
-        channels = [channel for pair in self.pairs for channel in pair.channels.values()]
-        return any(channel.tolerance is not None for channel in channels)
+    def channels(self) -> list[ComparedChannel]:
+        """The channels of all files."""
+        return [channel for pair in self.pairs for channel in pair.channels.values()]
 
     @property
     def verdict(self) -> Verdict:
-        """The worst of the verdicts on the files; of channels without a tolerance only if none has it."""
-        judged = [pair for pair in self.pairs if FilesCompared(self.reference, (pair,)).has_tolerance]
-        return worst(pair.verdict for pair in (judged if self.has_tolerance else self.pairs))
+        """The worst verdict on channels with a tolerance; if there is none, on all."""
+        return _verdict(self.channels)
 
     @property
     def failed(self) -> bool:
         """Whether a channel is not within its tolerance, or not decided."""
-        return self.has_tolerance and self.verdict in FAILED
+        return any(channel.faults for channel in self.channels)
 
 
 def compare_files(

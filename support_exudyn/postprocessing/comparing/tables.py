@@ -36,9 +36,9 @@ VERDICTS: dict[Verdict, str] = {
 
 def conclusion(compared: FilesCompared) -> str:
     """The verdict on all files as a sentence."""
-    return (
-        VERDICTS[compared.verdict] if compared.has_tolerance else "No tolerance was given: nothing is judged."
-    )
+    if all(channel.tolerance is None for channel in compared.channels):
+        return "No tolerance was given: nothing is judged."
+    return VERDICTS[compared.verdict]
 
 
 def table(pair: ComparedPair) -> Sheet:
@@ -185,7 +185,6 @@ def _channel_data(channel: ComparedChannel) -> dict[str, Any]:
         "mean": mean,
         "largest": channel.largest._asdict(),
         "over_errors": channel.over_errors,
-        "beyond_errors": channel.beyond_errors,
         "measures": channel.measures._asdict(),
         "statistics": {
             name: {**each._asdict(), "equal": each.equal} for name, each in channel.statistics.items()

@@ -18,8 +18,8 @@ from support_exudyn.postprocessing.comparing.measures import (
     curve_measures,
     interpolated,
     on_common_times,
+    time_shift,
 )
-from support_exudyn.postprocessing.comparing.shift import time_shift
 from user_forces import InputError
 
 PERIOD = np.linspace(0.0, 2.0 * np.pi, 20_001)
