@@ -14,8 +14,8 @@ from matplotlib.figure import Figure
 from support_exudyn.postprocessing.figures import overlay, style
 from support_exudyn.postprocessing.html import html_table
 from support_exudyn.postprocessing.shown_numbers import numbers, shown, side_by_side
-from support_exudyn.simulation.data_frames import library
 from support_exudyn.simulation.estimate import Estimate
+from support_exudyn.simulation.recorded_run import library
 from support_exudyn.simulation.result import Result
 from user_forces.values.names import Named
 from user_forces.values.value import InputError, short

@@ -36,7 +36,7 @@ from support_exudyn.postprocessing.shown_numbers import (
 from support_exudyn.scenario.pin_stability import PinOutlook, pin_outlooks
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scenario.scenario_data import LARGEST_GOAL
-from support_exudyn.simulation.horizon import agreed
+from support_exudyn.simulation.estimate import agreed
 from support_exudyn.simulation.impulses import impulses_of
 from support_exudyn.simulation.provenance import FORMULATION_ASKED
 from support_exudyn.simulation.reported_numbers import FORCE

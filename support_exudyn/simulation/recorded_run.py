@@ -7,6 +7,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 from functools import cached_property
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -18,6 +20,10 @@ from support_exudyn.simulation.provenance import WARNINGS
 from user_forces.contact_state import Onset
 from user_forces.values.names import Named, UnknownNameError
 from user_forces.values.value import InputError, short
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
 
 
 @dataclass(frozen=True)
@@ -154,3 +160,41 @@ class RecordedRun:
             allowed = "runs of a scenario with channels = ('*',)"
             raise InputError(f"channel {name!r}: was not recorded, and {why}; allowed: {allowed}")
         return self[name]
+
+
+# --- tables of pandas and xarray, which need not be installed ---
+
+
+def to_pandas(run: RecordedRun) -> pd.DataFrame:
+    """See `Result.to_pandas`."""
+    pandas = library("pandas", "to_pandas")
+    columns = {name: channel.values for name, channel in run.channels.items() if name != "time"}
+    frame = pandas.DataFrame(columns, index=pandas.Index(run.time, name="time"))
+    frame.attrs = {
+        "units": {name: channel.unit for name, channel in run.channels.items()},
+        "meanings": {name: channel.meaning for name, channel in run.channels.items()},
+    }
+    return frame
+
+
+def to_xarray(run: RecordedRun) -> xr.Dataset:
+    """See `Result.to_xarray`."""
+    xarray = library("xarray", "to_xarray")
+    series = {
+        name: ("time", channel.values, {"units": channel.unit, "long_name": channel.meaning})
+        for name, channel in run.channels.items()
+    }
+    time = series.pop("time")
+    about = {"machine": type(run.scenario.machine).__name__, "formulation": run.scenario.formulation}
+    return xarray.Dataset(series, {"time": time}, {**about, **run.provenance})
+
+
+def library(name: str, what: str) -> Any:
+    """A library that need not be installed; what: asks for it. Raises InputError if it is not there."""
+    try:
+        return import_module(name)
+    except ModuleNotFoundError:
+        raise InputError(
+            f"{what}: needs {name}, which is not installed; allowed: after "
+            "python -m pip install 'support-exudyn[data]'"
+        ) from None

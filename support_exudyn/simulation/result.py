@@ -26,10 +26,8 @@ from support_exudyn.mechanics.trajectory import Counts, Impulse, OilEvent
 from support_exudyn.scenario.presentation import presenter
 from support_exudyn.scenario.recorded_channels import Channel
 from support_exudyn.simulation import impulses
-from support_exudyn.simulation.data_frames import to_pandas, to_xarray
-from support_exudyn.simulation.estimate import Estimate, error, errors, fall, worst_error
-from support_exudyn.simulation.horizon import horizon
-from support_exudyn.simulation.recorded_run import RecordedRun
+from support_exudyn.simulation.estimate import Estimate, error, errors, fall, horizon, worst_error
+from support_exudyn.simulation.recorded_run import RecordedRun, to_pandas, to_xarray
 from support_exudyn.simulation.reported_numbers import measures
 from user_forces.contact_state import Onset
 from user_forces.values.names import Named
@@ -123,7 +121,7 @@ class Result(RecordedRun):
 
     @property
     def horizon(self) -> float:
-        """The time [s] of the first impact that shorter steps change, see `simulation.horizon`; infinite: none.
+        """The time [s] of the first impact that shorter steps change, see `estimate.horizon`; infinite: none.
 
         Up to it the run is determined; beyond it means and spreads may be results, single impacts are not.
         """

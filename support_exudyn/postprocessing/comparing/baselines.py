@@ -23,8 +23,7 @@ from support_exudyn.postprocessing.comparing.compared_channel import ComparedCol
 from support_exudyn.postprocessing.comparing.compared_file import recorded_columns
 from support_exudyn.postprocessing.comparing.mapping import BOTH_ERRORS
 from support_exudyn.scene.contract import Progress, SimulationError
-from support_exudyn.simulation.estimate import Estimate
-from support_exudyn.simulation.horizon import horizon
+from support_exudyn.simulation.estimate import Estimate, horizon
 from support_exudyn.simulation.provenance import provenance
 from support_exudyn.simulation.result import Result
 from support_exudyn.simulation.simulate import simulate

@@ -29,7 +29,7 @@ from support_exudyn.postprocessing.comparing.baselines import (
 )
 from support_exudyn.postprocessing.comparing.compared_channel import ComparedChannel, ComparedColumn, compared
 from support_exudyn.postprocessing.comparing.compared_file import recorded_columns, run_or_series
-from support_exudyn.postprocessing.comparing.mapping import BOTH_ERRORS, PERCENT, Tolerance, tolerance
+from support_exudyn.postprocessing.comparing.mapping import BOTH_ERRORS, Tolerance, tolerance
 from support_exudyn.postprocessing.figures.selection import matching
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.estimate import Estimate
@@ -180,15 +180,11 @@ def closeness(
 
 
 def _rule(allowed: float | str | None) -> Tolerance:
+    """The tolerance of a share, a text or None. Raises InputError if it is none."""
     if allowed is None:
         return BOTH_ERRORS
-    if isinstance(allowed, str):
-        return tolerance("*", allowed)
-    if isinstance(allowed, (int, float)) and not isinstance(allowed, bool) and 0.0 <= allowed < math.inf:
-        return Tolerance("*", f"{100.0 * allowed:.4g} %", 100.0 * allowed, PERCENT)
-    raise InputError(
-        f"tolerance = {short(allowed)}: allowed: a share from 0 on, a text, '2 %' or '0.1 mm', None"
-    )
+    is_share = isinstance(allowed, (int, float)) and not isinstance(allowed, bool)
+    return tolerance("*", f"{100.0 * float(allowed):.12g} %" if is_share else str(allowed))
 
 
 def _columns(item: Any) -> dict[str, ComparedColumn]:
