@@ -2,6 +2,7 @@
 
 import math
 from collections import Counter
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Literal
 
@@ -33,44 +34,38 @@ def baseline(
         if action != "update" and names:
             raise InputError(f"{action} takes FOLDER alone; allowed: names with update")
         kept = BaselineFolder(folder)
-        if action == "make":
-            return _make(kept, json)
+        there = [name for name in kept.scenarios if name in kept.baselines]
+        missing = [name for name in kept.scenarios if name not in kept.baselines]
+        chosen = missing if action == "make" else list(dict.fromkeys(names)) or kept.names
+        checked, written = list[CheckedScenario](), dict[str, Path]()
         with shown_progress(action) as progress:
-            checked = list(kept.check(list(dict.fromkeys(names)) or kept.names, progress))
-        if json:
+            for one in kept.check(chosen, progress):
+                checked.append(one)
+                if one.state not in ("same", "failed") and (action == "make" or one.name in names):
+                    written[one.name] = kept.write(one)
+        left = [one.name for one in checked if one.state != "same" and one.name not in written]
+        if json and action == "make":
+            answer({"made": {one.name: written.get(one.name) for one in checked}, "there": there})
+        elif json:
             answer({one.name: _data(one) for one in checked})
+        elif action == "make":
+            for name, path in written.items():
+                say(f"{path}: {_counts(next(one for one in checked if one.name == name))}")
+            if there:
+                say(f"left as they are: {', '.join(there)}; `check` compares them, `update` changes them")
         else:
-            _report(checked)
-        left = [one for one in checked if one.state != "same"]
-        if action == "update":
-            left = _update(kept, left, names, json)
-            if left:
-                warn(f"{len(left)} not written; to write one, name it: update {folder} NAME")
+            _report(checked, written)
+        if left and action == "make":
+            warn("\n".join(f"{one.name}: not made, {_state(one)}" for one in checked if one.failed))
+        if left and action == "update":
+            warn(f"{len(left)} not written; to write one, name it: update {folder} NAME")
         return CHANGED if left else 0
 
     return answered(work, WRONG)
 
 
-def _make(kept: BaselineFolder, json: bool) -> int:
-    """Write what has no baseline yet, each as soon as it is run; returns the exit code."""
-    missing = [name for name in kept.scenarios if name not in kept.baselines]
-    written: dict[str, Any] = {}
-    with shown_progress("make") as progress:
-        for one in kept.check(missing, progress):
-            written[one.name] = None if one.failed else kept.write(one)
-            if one.failed:
-                warn(f"{one.name}: not made, its run cannot be finished: {one.failed}")
-            elif not json:
-                say(f"{written[one.name]}: {_counts(one)}")
-    there = [name for name in kept.scenarios if name in kept.baselines]
-    if json:
-        answer({"made": written, "there": there})
-    elif there:
-        say(f"left as they are: {', '.join(there)}; `check` compares them, `update` changes them")
-    return CHANGED if None in written.values() else 0
-
-
 def _counts(one: CheckedScenario) -> str:
+    """How much is kept of a run, and up to when."""
     assert one.now is not None
     words = f"{len(one.now.numbers)} numbers, {len(one.now.curves)} channels"
     if math.isfinite(one.now.horizon):
@@ -78,20 +73,27 @@ def _counts(one: CheckedScenario) -> str:
     return words
 
 
-def _report(checked: list[CheckedScenario]) -> None:
-    """Print the state of each scenario, and what has changed."""
+def _state(one: CheckedScenario) -> str:
+    """The state of a scenario in words."""
+    states = {
+        "changed": f"{len(one.changes)} changed by more than both errors, new, or gone",
+        "failed": f"its run cannot be finished: {one.failed}",
+        "new": "new, it has no baseline",
+        "gone": "gone, there is a baseline and no such scenario",
+    }
+    return states.get(one.state) or f"nothing changed ({_counts(one)})"
+
+
+def _report(checked: list[CheckedScenario], written: Mapping[str, Path]) -> None:
+    """Print the state of each scenario, what has changed, and what was written."""
     for one in checked:
-        states = {
-            "changed": f"{len(one.changes)} changed by more than both errors, new, or gone",
-            "failed": f"its run cannot be finished: {one.failed}",
-            "new": "new, it has no baseline",
-            "gone": "gone, there is a baseline and no such scenario",
-        }
-        say(f"{one.name}: {states.get(one.state) or f'nothing changed ({_counts(one)})'}")
+        say(f"{one.name}: {_state(one)}")
         if one.state == "changed":
             others = _other_versions(one)
             for line in (*lines(one.changes), *([f"made with {others}"] if others else [])):
                 say(f"  {line}")
+        if one.name in written:
+            say(f"{written[one.name]}: {'removed' if one.now is None else 'written'}")
     counts = Counter(one.state for one in checked)
     say(", ".join(f"{number} {state}" for state, number in counts.items()))
 
@@ -103,18 +105,6 @@ def _other_versions(one: CheckedScenario) -> str:
     was, now = one.was.provenance, one.now.provenance
     others = [key for key in was if key != "made_at" and was[key] != now.get(key)]
     return ", ".join(f"{key} {was[key][:40]} (now {now.get(key, 'none')[:40]})" for key in others)
-
-
-def _update(
-    kept: BaselineFolder, changed: list[CheckedScenario], names: tuple[str, ...], json: bool
-) -> list[CheckedScenario]:
-    """Write the scenarios that are named; returns those that are left. A run that failed is never written."""
-    chosen = [one for one in changed if one.state != "failed" and one.name in names]
-    for one in chosen:
-        path = kept.write(one)
-        if not json:
-            say(f"{path}: {'removed' if one.now is None else 'written'}")
-    return [one for one in changed if one not in chosen]
 
 
 def _data(one: CheckedScenario) -> dict[str, Any]:
