@@ -110,7 +110,7 @@ def test_errors_cover_what_a_finer_run_finds(runs: Path, accuracy: str) -> None:
 def test_the_same_run_other_records_and_a_bit(runs: Path) -> None:
     # both have the same errors, so even a tolerance far below them is met
     same = one(runs, "with_clearance", "with_clearance", FORCE, tolerance="pin.*=1e-9N")
-    assert (same.mean.value, same.largest.value, same.verdict) == (0.0, 0.0, "differs within tolerance")
+    assert (same.mean.value, same.largest.value, same.verdict) == (0.0, 0.0, "agrees")
     assert same.largest.error > 1e-9
     # both follow the same columns on the same steps; the difference is rounding
     common = one(runs, "plain", "rare", "tip.x")

@@ -99,7 +99,7 @@ def _unwrapped(angle: Values) -> Values:
     return continuous
 
 
-class Row(NamedTuple):
+class ComparedRow(NamedTuple):
     """A line of a comparison: a measure of a channel, in SI; NaN where a number is not known.
 
     measure: its name. time: of it [s], NaN of a measure of the whole curve. reference, other: of both sides.
@@ -184,33 +184,37 @@ class ComparedChannel:
         return int(np.count_nonzero(np.isfinite(self.common.reference) & ~np.isfinite(self.common.other)))
 
     @cached_property
-    def rows(self) -> tuple[Row, ...]:
+    def rows(self) -> tuple[ComparedRow, ...]:
         """The rows of the channel: a tolerance bounds the largest difference, after the horizon statistics.
 
         A percentage is not judged, nor is the mean. Without a tolerance the numerical errors decide.
         """
         measures, (reference, other, mean) = self.measures, self.means
         rows = [
-            Row(self.name, self.unit, "mean", math.nan, reference.value, other.value, mean.value, mean.error),
+            ComparedRow(
+                self.name, self.unit, "mean", math.nan, reference.value, other.value, mean.value, mean.error
+            ),
             self._largest_row(),
-            Row(self.name, PERCENT, "RMS/range", difference=100.0 * measures.rms_of_range),
-            Row(self.name, PERCENT, "C", difference=100.0 * measures.combined_error),
+            ComparedRow(self.name, PERCENT, "RMS/range", difference=100.0 * measures.rms_of_range),
+            ComparedRow(self.name, PERCENT, "C", difference=100.0 * measures.combined_error),
         ]
         for name, each in self.statistics.items():
-            plain = Row(self.name, self.unit, f"{name} after the horizon", math.nan, *each, self.allowed)
+            plain = ComparedRow(
+                self.name, self.unit, f"{name} after the horizon", math.nan, *each, self.allowed
+            )
             if self.tolerance is not None:
                 rows.append(self._judged(plain, bool(each.equal)))
             elif each.equal is not None:
                 rows.append(plain._replace(verdict="agrees" if each.equal else "differs"))
         return tuple(rows)
 
-    def _largest_row(self) -> Row:
+    def _largest_row(self) -> ComparedRow:
         """The largest difference before the horizon, or the record that decides, with its verdict.
 
         Without a tolerance, and with the errors as tolerance, that is the record with the largest multiple of
         its error. Curves that are the same to the bit have the same errors, whatever these are.
         """
-        row, common = Row(self.name, self.unit, LARGEST, tolerance=self.allowed), self.common
+        row, common = ComparedRow(self.name, self.unit, LARGEST, tolerance=self.allowed), self.common
         unknown = math.isnan(self.measures.largest)
         if self.gaps:
             reason = f"not decided: no value at {self.gaps} times at which the reference has a value"
@@ -235,7 +239,7 @@ class ComparedChannel:
             return row._replace(verdict="agrees", reason="is the same")
         return self._judged(row, self.over_errors <= 1.0, float(common.interpolation_error[at]))
 
-    def _judged(self, row: Row, agrees: bool, interpolation: float = math.nan) -> Row:
+    def _judged(self, row: ComparedRow, agrees: bool, interpolation: float = math.nan) -> ComparedRow:
         """A row with its verdict and the reason, by the tolerance, or by the numerical errors.
 
         Not decided is a difference that is not known, or whose error is not known, or is larger than what is

@@ -15,7 +15,7 @@ from support_exudyn.files.series.units import scaled, unit_checked
 from support_exudyn.postprocessing import summary
 from support_exudyn.postprocessing.comparing.compared_channel import (
     ComparedChannel,
-    Row,
+    ComparedRow,
     Verdict,
     compared,
     worst,
@@ -63,12 +63,12 @@ class ComparedPair:
         """The earlier horizon of both [s]; beyond it single impacts are no result of a run."""
         return min(self.reference.horizon, self.other.horizon)
 
-    def rows(self) -> Iterator[Row]:
+    def rows(self) -> Iterator[ComparedRow]:
         """The table of the comparison: the rows of all channels, then the channels that are not comparable."""
         for channel in self.channels.values():
             yield from channel.rows
         for name, reason in self.left_out.items():
-            yield Row(name, "", "", verdict="not comparable", reason=reason)
+            yield ComparedRow(name, "", "", verdict="not comparable", reason=reason)
 
     @property
     def verdict(self) -> Verdict:

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from support_exudyn.files.whole_file import whole_file
-from support_exudyn.postprocessing.comparing.compared_channel import ComparedChannel, Row, Verdict
+from support_exudyn.postprocessing.comparing.compared_channel import ComparedChannel, ComparedRow, Verdict
 from support_exudyn.postprocessing.comparing.files_compared import ComparedPair, FilesCompared, first_names
 from support_exudyn.postprocessing.comparing.mapping import PERCENT
 from support_exudyn.postprocessing.comparing.measures import CONFIDENCE
@@ -76,7 +76,7 @@ def _number(value: float, digits: int) -> str:
     return "" if math.isnan(value) else f"{value:.{digits}g}"
 
 
-def _with_error(row: Row, scale: float, digits: int) -> str:
+def _with_error(row: ComparedRow, scale: float, digits: int) -> str:
     """A difference in a unit, with its error if that is known."""
     if math.isnan(row.difference) or math.isnan(row.error):
         return _number(scale * row.difference, digits)
@@ -197,7 +197,7 @@ def write_csv(compared: FilesCompared, path: Path) -> None:
     """Write all rows as CSV in SI, whole or not at all; empty cells where a number is not known."""
     with whole_file(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(("file", *Row._fields))
+        writer.writerow(("file", *ComparedRow._fields))
         for pair in compared.pairs:
             for row in pair.rows():
                 cells = ("" if each is None or each != each else each for each in row)
