@@ -2,6 +2,7 @@
 
 import math
 from pathlib import Path
+from typing import Annotated
 
 from support_exudyn.commands.command_line import (
     After,
@@ -9,6 +10,7 @@ from support_exudyn.commands.command_line import (
     Until,
     answer,
     answered,
+    output,
     say,
     show_table,
     shown_progress,
@@ -27,7 +29,7 @@ def compare(
     map: Path | None = None,  # noqa: A002, the option's name
     shift: bool = False,
     tolerance: str | None = None,
-    csv: Path | None = None,
+    csv: Annotated[Path | None, output(".csv", folder=False)] = None,
     junit: Path | None = None,
     figure: Path | None = None,
     page: Path | None = None,

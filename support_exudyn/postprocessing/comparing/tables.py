@@ -101,7 +101,12 @@ def notes(pair: ComparedPair) -> Iterator[str]:
             f"{shift.channel} (correlation {shift.correlation:.4f}); that is taken off its times"
         )
     if math.isfinite(pair.horizon):
-        yield from _horizon(pair)
+        file = min((pair.reference, pair.other), key=lambda file: file.horizon)
+        yield (
+            f"point by point up to {pair.horizon:.6g} s, the horizon of {file.name}, from which on shorter "
+            "steps change its impacts; after it by statistics, if there are enough common times, with "
+            f"{100.0 * CONFIDENCE:.3g} % confidence of all together"
+        )
     for name, channel in pair.channels.items():
         sides = (pair.reference, channel.common.reference), (pair.other, channel.common.other)
         for file, values in sides:
@@ -120,30 +125,6 @@ def notes(pair: ComparedPair) -> Iterator[str]:
     for names in (lacking, [name for name in pair.left_out if name not in lacking]):
         if names:
             yield f"left out: {first_names(names)}; {pair.left_out[names[0]]}"
-
-
-def _horizon(pair: ComparedPair) -> Iterator[str]:
-    """Up to when curves are compared point by point, and which of their statistics differ after that."""
-    file = min((pair.reference, pair.other), key=lambda file: file.horizon)
-    yield (
-        f"point by point up to {pair.horizon:.6g} s, the horizon of {file.name}, from which on shorter "
-        "steps change its impacts; after it by statistics"
-    )
-    equal, differ = 0, []
-    for name, channel in pair.channels.items():
-        for what, each in channel.statistics.items():
-            equal += each.equal is True
-            if each.equal is False:
-                half = said(each.half, channel.unit)
-                differ.append(f"{what} of {name} by {said(each.difference, channel.unit)} ± {half}")
-    if not equal and not differ:
-        yield "after it there are too few common times for confidence intervals"
-        return
-    which = f": {first_names(differ)}" if differ else ""
-    yield (
-        f"after it {len(differ)} of {equal + len(differ)} statistics differ, with {100.0 * CONFIDENCE:.3g} % "
-        f"confidence of all together{which}"
-    )
 
 
 # --- for other programs ---
