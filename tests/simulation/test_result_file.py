@@ -109,34 +109,20 @@ def test_the_runs_by_which_errors_are_estimated_come_back(estimated: Result, tmp
     assert (back.fall, back.worst_error, back.met) == (estimated.fall, estimated.worst_error, True)
 
 
-def drop_channels(group: h5py.Group) -> None:
-    del group["channels"]
+def deleted(name: str) -> Callable[[h5py.Group], None]:
+    def damage(group: h5py.Group) -> None:
+        del group[name]
+
+    return damage
 
 
-def drop_scenario(group: h5py.Group) -> None:
-    del group.attrs["scenario"]
+def replaced(name: str, values: object) -> Callable[[h5py.Group], None]:
+    def damage(group: h5py.Group) -> None:
+        attributes = dict(group[name].attrs)
+        del group[name]
+        group.create_dataset(name, data=values).attrs.update(attributes)
 
-
-def add_a_count(group: h5py.Group) -> None:
-    group.attrs["counts"] = '{"steps": 1, "leaps": 2}'
-
-
-def spoil_scenario(group: h5py.Group) -> None:
-    group.attrs["scenario"] = '{"type": "Scenario", "duration": -1.0}'
-
-
-def widen_onsets(group: h5py.Group) -> None:
-    del group["onsets/rear_base"]
-    group.create_dataset("onsets/rear_base", data=np.zeros((2, 3))).attrs["largest_force_N"] = 1.0
-
-
-def replace_channel(name: str, values: object) -> Callable[[h5py.Group], None]:
-    def replace(group: h5py.Group) -> None:
-        attributes = dict(group[f"channels/{name}"].attrs)
-        del group[f"channels/{name}"]
-        group.create_dataset(f"channels/{name}", data=values).attrs.update(attributes)
-
-    return replace
+    return damage
 
 
 def turn_time_back(group: h5py.Group) -> None:
@@ -144,9 +130,13 @@ def turn_time_back(group: h5py.Group) -> None:
 
 
 DAMAGES = [
-    *(drop_channels, drop_scenario, add_a_count, widen_onsets, turn_time_back),
-    replace_channel("tip.x", np.zeros(3)),
-    replace_channel("time", np.zeros(0)),
+    deleted("channels"),
+    lambda group: group.attrs.__delitem__("scenario"),
+    lambda group: group.attrs.__setitem__("counts", '{"steps": 1, "leaps": 2}'),
+    replaced("onsets/rear_base", np.zeros((2, 3))),
+    turn_time_back,
+    replaced("channels/tip.x", np.zeros(3)),
+    replaced("channels/time", np.zeros(0)),
 ]
 
 
@@ -162,13 +152,25 @@ def test_a_file_with_a_damaged_group_is_refused(
         Result.load(path)
 
 
+def test_a_file_that_is_cut_off_or_has_a_changed_byte_is_refused(result: Result, tmp_path: Path) -> None:
+    path = result.save(tmp_path / "run.h5")
+    whole, chance = path.read_bytes(), np.random.default_rng(1)
+    lengths = [0, 3, BLOCK - 1, BLOCK, len(whole) - 1, *chance.integers(0, len(whole), 5)]
+    places = [0, BLOCK - 1, BLOCK, len(whole) - 1, *chance.integers(0, len(whole), 10)]
+    flipped = [whole[:place] + bytes([whole[place] ^ 4]) + whole[place + 1 :] for place in places]
+    for damaged in (*(whole[:length] for length in lengths), *flipped):
+        path.write_bytes(damaged)
+        with pytest.raises(InputError, match=r"run\.h5: not a result file of this program, or damaged \("):
+            Result.load(path)
+
+
 @pytest.mark.parametrize("group", ["/", "coarser"])
 def test_a_file_with_a_value_that_does_not_fit_says_which(
     estimated: Result, tmp_path: Path, group: str
 ) -> None:
     path = estimated.save(tmp_path / "run.h5")
     with changed(path) as file:
-        spoil_scenario(file[group])
+        file[group].attrs["scenario"] = '{"type": "Scenario", "duration": -1.0}'
     with pytest.raises(InputError, match=r"run\.h5: Scenario\."):
         Result.load(path)
 

@@ -37,7 +37,7 @@ VERDICTS: dict[Verdict, str] = {
 def conclusion(compared: FilesCompared) -> str:
     """The verdict on all files as a sentence."""
     if all(channel.tolerance is None for channel in compared.channels):
-        return "No tolerance was given: nothing is judged."
+        return "No tolerance was given: the verdicts are by numerical errors alone."
     return VERDICTS[compared.verdict]
 
 
