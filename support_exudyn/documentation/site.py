@@ -48,8 +48,8 @@ def build_site(out: Path, commands: str) -> None:
             [sys.executable, "-m", "mkdocs", *words], cwd=ROOT, capture_output=True, text=True, check=False
         )
     if done.returncode:
-        lines = [line for line in done.stderr.splitlines() if not line.startswith("INFO")]
-        raise InputError("\n".join(lines))
+        lines = [line for line in done.stderr.splitlines() if line.startswith(("WARNING", "ERROR"))]
+        raise InputError("\n".join(lines) or done.stderr)
 
 
 def rooms() -> list[str]:

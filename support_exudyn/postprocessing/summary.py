@@ -272,70 +272,56 @@ def what_is_run(scenario: Scenario) -> list[Row]:
 def how(result: Result) -> list[Row]:
     """Formulation, accuracy, counts, time taken and versions: name and words.
 
-    Of a formulation that was left to the program it is said which ran and why.
+    If the program chose the formulation, the reason follows its name.
     """
-    scenario, counts = result.scenario, result.counts
-    cost = ""
-    if result.goal is None and result.coarser is None:
-        accuracy = "none was asked for: settings as they stand"
-    elif result.goal is None:
-        accuracy = (
-            f"errors were asked for, no accuracy: {result.worst_error:.1g} estimated, settings as they stand"
-        )
-        cost = " (all runs that the errors took)"
-    else:
-        cost = " (all runs of the accuracy)" if result.coarser else ""
+    scenario = result.scenario
+    accuracy, cost = "none was asked for: settings as they stand", ""
+    if result.goal is not None:
         met = "met" if result.met else "NOT met"
         accuracy = f"{result.goal:g} asked for, {result.worst_error:.1g} estimated: {met}"
-    made = dataclasses.asdict(counts).items()
-    versions = [f"{name} {result.provenance[name]}" for name in VERSIONS if name in result.provenance]
+        cost = " (all runs of the accuracy)" if result.coarser else ""
+    elif result.coarser is not None:
+        accuracy = f"{result.worst_error:.1g} estimated, none was asked for: settings as they stand"
+        cost = " (all runs of the error estimate)"
     steps = f"tolerance {scenario.solver.tolerance:g}"
     if not scenario.chooses_steps:
         steps = f"steps of {said(scenario.step, 's')} and less, {scenario.solver.impact_steps} to an impact"
-    contacts, warnings = contact_lines(scenario), result.warnings
-    return [
-        *([("contact", "\n".join(contacts))] if contacts else []),
-        *([("warning", "\n".join(warnings))] if warnings else []),
+    counts = dataclasses.asdict(result.counts).items()
+    versions = [f"{name} {result.provenance[name]}" for name in VERSIONS if name in result.provenance]
+    undetermined = shared(scenario.held) if scenario.dimensions == 2 else ()
+    rows = [
+        ("contact", "\n".join(contact_lines(scenario))),
+        ("warning", "\n".join(result.warnings)),
         ("formulation", f"{_formulation(result)}; {steps}"),
         ("accuracy", accuracy),
-        *(("not determined", sentence) for sentence in shared(scenario.held) if scenario.dimensions == 2),
-        ("counts", ", ".join(f"{count} {name.replace('_', ' ')}" for name, count in made if count)),
+        *(("not determined", sentence) for sentence in undetermined),
+        ("counts", ", ".join(f"{count} {name.replace('_', ' ')}" for name, count in counts if count)),
         ("wall time", said(result.wall_time, "s") + cost),
         ("made", f"{result.provenance.get('made_at', 'at a time unknown')} with {', '.join(versions)}"),
     ]
+    return [row for row in rows if row[1] or row[0] == "counts"]
 
 
 def unmet(result: Result) -> str:
     """What to change where the accuracy that was asked for was not met."""
-    told = result.worst_error
-    reached = f"{1.1 * told:.1g}" if math.isfinite(told) and 1.1 * told <= LARGEST_GOAL else ""
-    changes = [
-        f"ask for what was reached (accuracy = {reached})" if reached else "",
-        "a shorter duration_s, for every impact multiplies the errors of those before"
-        if any(result.onsets.values())
-        else "",
-        "a friction law with a less steep ramp (dynamic_speed)" if _has_friction(result) else "",
-        "means in place of largest values, which settle first",
-    ]
+    error, contacts = result.worst_error, result.scenario.contact_places.values()
+    changes = ["means in place of largest values, which settle first"]
+    if any(not isinstance(place.contact.friction, Frictionless) for place in contacts):
+        changes.insert(0, "a friction law with a less steep ramp (dynamic_speed)")
+    if any(result.onsets.values()):
+        changes.insert(0, "a shorter duration_s, for every impact multiplies the errors of those before")
+    if 1.1 * error <= LARGEST_GOAL:
+        changes.insert(0, f"ask for what was reached (accuracy = {1.1 * error:.1g})")
+    determined = ""
+    if math.isfinite(result.horizon):
+        determined = (
+            f"Up to {said(result.horizon, 's')}, {agreed(result)} impacts, runs with shorter steps agree; what "
+            "comes later depends on the steps. "
+        )
     return (
-        f"accuracy {result.goal:g}: NOT met, {told:.1g} is estimated; shorter steps did not help. "
-        f"{_determined(result)}What may: " + "; ".join(filter(None, changes))
+        f"accuracy {result.goal:g}: NOT met, {error:.1g} is estimated; shorter steps did not help. "
+        f"{determined}What may: {'; '.join(changes)}"
     )
-
-
-def _determined(result: Result) -> str:
-    """Up to when the run is determined, as a sentence; empty where its impacts do not say."""
-    if not math.isfinite(result.horizon):
-        return ""
-    return (
-        f"Up to {said(result.horizon, 's')}, {agreed(result)} impacts, runs with shorter steps agree; what "
-        "comes later depends on the steps. "
-    )
-
-
-def _has_friction(result: Result) -> bool:
-    places = result.scenario.contact_places.values()
-    return any(not isinstance(place.contact.friction, Frictionless) for place in places)
 
 
 def _formulation(result: Result) -> str:
