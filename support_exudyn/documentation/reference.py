@@ -8,7 +8,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from support_exudyn.files.toml.shapes import FieldShape, allowed, field_shapes
+from support_exudyn.files.toml.shapes import allowed, field_shapes
 from user_forces.values.value import InputError, Value
 
 if sys.version_info >= (3, 11):
@@ -23,7 +23,7 @@ MODULES = (
     "support_exudyn.sweeps",
     "user_forces",
 )
-INHERITED = "Result"  # what a run recorded is told with it
+INHERITED = "Result"  # whose page shows what a run recorded, too
 
 
 def public_names() -> dict[str, Any]:
@@ -87,18 +87,11 @@ def _entry(name: str, thing: Any, shown: Mapping[str, str]) -> str:
 
 def _fields(cls: type[Value]) -> str:
     """Unit, range and default of every argument of a class."""
-    rows = [
-        f"| `{one.name}` | {one.unit.symbol if one.unit else ''} | {_said(one)} | {_default(one)} |"
-        for one in field_shapes(cls).values()
-    ]
-    head = ["| argument | unit | allowed | if nothing is said |", "|---|---|---|---|"]
-    return "\n".join([*head, *rows]) if rows else ""
-
-
-def _said(one: FieldShape) -> str:
-    text = allowed(one.shape) + (", or None" if one.allows_none else "")
-    return text.replace("|", "\\|")
-
-
-def _default(one: FieldShape) -> str:
-    return "needed" if one.required else f"`{one.default!r}`".replace("|", "\\|")
+    lines = ["| argument | unit | allowed | default |", "|---|---|---|---|"]
+    for field in field_shapes(cls).values():
+        limits = allowed(field.shape) + (", or None" if field.allows_none else "")
+        default = "needed" if field.required else f"`{field.default!r}`"
+        cells = (f"`{field.name}`", field.unit.symbol if field.unit else "", limits, default)
+        escaped = (cell.replace("|", "\\|") for cell in cells)
+        lines.append(f"| {' | '.join(escaped)} |")
+    return "\n".join(lines) if len(lines) > 2 else ""
