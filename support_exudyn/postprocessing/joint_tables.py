@@ -7,8 +7,6 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from support_exudyn.files.own_modules import NotImported, with_known_laws
-from support_exudyn.machines.check.joint_warnings import guide_warnings, joint_warnings
-from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.postprocessing.figures.units import said
 from support_exudyn.scenario.pin_pressure import PressedPin, pressed_pin
 from support_exudyn.scenario.pin_stability import PinOutlook
@@ -212,6 +210,9 @@ def leg_table(result: Result, after: float = 0.0, until: float = float("inf")) -
 
 def joint_warnings_of(result: Result) -> list[str]:
     """Warnings on the joints of a planar run, with its numbers as far as they were recorded."""
+    from support_exudyn.machines.check.joint_warnings import guide_warnings, joint_warnings  # slow to import
+    from support_exudyn.mechanics.body_motion import BodyMotion
+
     linkage, channels = result.scenario.linkage, result.channels
     moments = {
         name: float(np.abs(result[f"{name}.moment"]).max())
