@@ -8,7 +8,7 @@ terminal: `support-exudyn sweep sweep.toml`, and then `show`, `chart` and `table
 from pathlib import Path
 
 from support_exudyn.postprocessing.figures.style import look
-from support_exudyn.postprocessing.figures.sweep_distribution import histogram
+from support_exudyn.postprocessing.figures.sweeps import histogram
 from support_exudyn.sweeps import read_sweep, read_table, sweep
 from support_exudyn.sweeps.statistics import percentiles, ranking
 

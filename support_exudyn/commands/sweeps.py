@@ -125,7 +125,8 @@ def chart(
         tornado: Draw by how much each varied field moves Y.
         out: Folder of the figure (figures in the store), or its file (.png, .pdf, .svg).
     """
-    from support_exudyn.postprocessing.figures import style, sweep_chart, sweep_distribution
+    from support_exudyn.postprocessing.figures import style
+    from support_exudyn.postprocessing.figures import sweeps as figures
     from support_exudyn.postprocessing.figures.of_runs import joined, save_figures
 
     if len(names) > 2:
@@ -136,16 +137,16 @@ def chart(
     *before, y = names or [_only_number(list(runs.numbers))]
     with style.look():
         if tornado:
-            drawing, name = sweep_distribution.tornado(runs.table, y), joined(y, "tornado")
+            drawing, name = figures.tornado(runs.table, y), joined(y, "tornado")
         elif histogram or (not before and is_sampled(runs.table)):
-            drawing, name = sweep_distribution.histogram(runs.table, y), joined(y, "histogram")
+            drawing, name = figures.histogram(runs.table, y), joined(y, "histogram")
         elif (x := before[0] if before else runs.usual_input) is None:
             raise InputError(
                 f"{y}: over which field? allowed: chart STORE X Y with X one of {', '.join(runs.varied)}; or "
                 "--histogram, --tornado"
             )
         else:
-            drawing = sweep_chart.sweep_chart(runs.table, x, y, by)
+            drawing = figures.sweep_chart(runs.table, x, y, by)
             name = joined(y, "over", x, f"by_{by}" if by else "")
         folder = store if store.is_dir() else store.parent
         style.named(drawing, folder.resolve().name)

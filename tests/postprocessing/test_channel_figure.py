@@ -54,7 +54,7 @@ def test_channels_of_a_unit_share_a_panel_and_are_shown_in_it() -> None:
     forces, places, angles, accelerations = drawing.axes
     assert [axes.get_ylabel() for axes in (forces, places, angles)] == [
         "force [kN]",
-        "length [mm]",
+        "position [mm]",
         "angle [deg]",
     ]
     assert accelerations.get_ylabel().split() == ["angular", "acceleration", "[deg/s²]"]

@@ -24,7 +24,7 @@ def test_every_run_has_a_curve_in_the_panel_of_its_channel() -> None:
     (axes,) = drawing.axes
     assert [line.get_label() for line in axes.lines] == ["a", "b"]
     assert axes.lines[1].get_ydata() == pytest.approx(3000.0 + 200.0 * np.sin(TIME))
-    assert axes.get_ylabel() == "length [mm]"
+    assert axes.get_ylabel() == "position [mm]"
     assert drawing.get_suptitle() == "a and b, 0 to 2 s"
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pyarrow as pa
 import pytest
 
-from support_exudyn.postprocessing.figures.sweep_chart import sweep_chart
+from support_exudyn.postprocessing.figures.sweeps import sweep_chart
 
 SIZES = [1.0, 2.0, 3.0]
 

@@ -14,9 +14,9 @@ from matplotlib.ticker import StrMethodFormatter
 
 from support_exudyn.postprocessing.figures import style, units
 from support_exudyn.postprocessing.figures.journal import Series, clearance_joints, corners
-from support_exudyn.postprocessing.figures.selection import inside, matching, said, spacing
+from support_exudyn.postprocessing.figures.selection import inside, machine_name, matching, said, spacing
 from support_exudyn.postprocessing.figures.style import caption
-from support_exudyn.postprocessing.figures.units import DisplayUnit, readable
+from support_exudyn.postprocessing.figures.units import DisplayUnit, quantity, readable
 from support_exudyn.simulation.estimate import believed, multiple
 from support_exudyn.simulation.reported_numbers import ROUNDING
 from support_exudyn.simulation.result import Result
@@ -24,40 +24,13 @@ from user_forces.values.value import InputError
 
 CURVES = style.CURVES  # of a panel
 MOST = 32  # channels in a figure
+NAMED = 6  # channels whose errors are in the caption
 PANEL_MM, LINE_MM, REST_MM = 38.0, 4.0, 30.0  # height of a panel, of a line of its legend, and of the rest
-LETTERS = 22  # of a line beside a panel
+LETTERS = 22  # of a line next to a panel
 PLAIN = (1e-3, 1e5)  # sizes of numbers that an axis shows as they are
 UNLIKE = 50.0  # by what factor sizes differ that are not drawn together
-FLAT = (
-    100.0  # by what factor the range of a panel may exceed that of a channel in it, which would look constant
-)
+FLAT = 100.0  # factor of a panel's range to that of a channel in it, from which on it would look constant
 VISIBLE = 2e-3  # share of a panel's height from which on an error is shaded
-
-
-class Panel(NamedTuple):
-    """Channels that are drawn in one panel, and the unit in which."""
-
-    unit: DisplayUnit
-    names: tuple[str, ...]
-
-
-def groups(result: Result, names: Sequence[str], chosen: np.ndarray) -> list[Panel]:
-    """Panels: channels of one unit, of like size and like range together, as many as there are colours."""
-    found: list[_Group] = []
-    for name in names:
-        values = result[name][chosen]
-        one = _Group([name], result.unit(name), float(values.min()), float(values.max()), float(np.ptp(values)))
-        place = next((n for n, other in enumerate(found) if other.takes(one)), None)
-        if place is None:
-            found.append(one)
-        else:
-            found[place] = found[place].with_another(one)
-    most = len(CURVES)
-    return [
-        Panel(readable(group.unit, group.size), tuple(part.tolist()))
-        for group in found
-        for part in np.array_split(np.array(group.names), math.ceil(len(group.names) / most))
-    ]
 
 
 class _Group(NamedTuple):
@@ -74,7 +47,7 @@ class _Group(NamedTuple):
         return max(abs(self.low), abs(self.high))
 
     def takes(self, one: _Group) -> bool:
-        """Whether another channel is drawn with these: none looks flat then, nor is told in another unit."""
+        """Whether another channel is drawn with these: none looks flat then, nor is shown in another unit."""
         if self.unit != one.unit:
             return False
         if self.size == 0.0 or one.size == 0.0:
@@ -90,8 +63,21 @@ class _Group(NamedTuple):
         return _Group(self.names + one.names, self.unit, low, high, min(ranges, default=0.0))
 
 
+def groups(result: Result, names: Sequence[str], chosen: np.ndarray) -> list[list[str]]:
+    """Channels by panel: of one unit, of like size and like range, at most as many as there are colours."""
+    found: list[_Group] = []
+    for name in names:
+        values = result[name][chosen]
+        low, high = float(values.min()), float(values.max())
+        one = _Group([name], result.unit(name), low, high, high - low)
+        place = next((n for n, other in enumerate(found) if other.takes(one)), len(found))
+        found[place : place + 1] = [found[place].with_another(one) if place < len(found) else one]
+    parts = (np.array_split(group.names, math.ceil(len(group.names) / len(CURVES))) for group in found)
+    return [part.tolist() for split in parts for part in split]
+
+
 def error_over_time(result: Result, name: str) -> Series | None:
-    """Estimated numerical error of a channel at every record (n,), SI; None if nothing tells it.
+    """Estimated numerical error of a channel at every record (n,), SI; None if it is not known.
 
     As those of numbers, see `simulation.estimate`. Around an impact it is large because the time of the
     impact is uncertain, too.
@@ -125,31 +111,40 @@ def over_time(result: Result, channels: Sequence[str], after: float = 0.0, until
         )
     chosen = inside(result, after, until)
     time, panels = result.time[chosen], groups(result, names, chosen)
-    lines = sum(len(panel.names) for panel in panels)
-    title = f"{type(result.scenario.machine).__name__}, {said(result, after, until)}"
-    drawing = style.begin(170, REST_MM + PANEL_MM * len(panels) + LINE_MM * lines, title)
-    errors = {name: error for name in names if (error := error_over_time(result, name)) is not None}
+    title = f"{machine_name(result.scenario)}, {said(result, after, until)}"
+    drawing = style.begin(170, REST_MM + PANEL_MM * len(panels) + LINE_MM * len(names), title)
+    errors = {name: error[chosen] for name in names if (error := error_over_time(result, name)) is not None}
     with_clearance = {f"pin.{pin}.force" for pin in clearance_joints(result)}
-    shown = []
+    shown: list[tuple[str, Sequence[Curve]]] = []
     for panel in panels:
-        loose = with_clearance & set(panel.names)
+        loose = with_clearance & set(panel)
         curves = []
-        for name, (colour, dashes) in zip(panel.names, CURVES, strict=False):
-            if len(loose) == 1 and name in loose:  # several are told apart as others are
+        for name, (colour, dashes) in zip(panel, CURVES, strict=False):
+            if len(loose) == 1 and name in loose:  # several have colours as others have
                 colour = style.CONTACT
-            label = f"{name}: {result.channels[name].meaning}"
-            error = errors.get(name)
-            band = None if error is None else error[chosen]
-            curves.append(Curve(label, time, result[name][chosen], band, colour, dashes))
-        shown.append(curves)
-    rows, seconds = draw_panels(
-        drawing, [(result.unit(panel.names[0]), curves) for panel, curves in zip(panels, shown, strict=True)]
-    )
-    for axes in rows:
+            label, values = f"{name}: {result.channels[name].meaning}", result[name][chosen]
+            curves.append(Curve(label, time, values, errors.get(name), colour, dashes))
+        shown.append((result.unit(panel[0]), curves))
+    rows, seconds = draw_panels(drawing, shown)
+    joints = (*clearance_joints(result), *corners(result))
+    impacts = [one.time for joint in joints for one in result.onsets.get(joint, ())]
+    times = seconds.scale * np.array([one for one in impacts if time[0] <= one <= time[-1]])
+    for axes, panel in zip(rows, panels, strict=True):
+        label_values(axes, quantity(result.unit(panel[0]), tuple(panel)), unit_of(axes))
         axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), fontsize=7, borderaxespad=0.0, ncols=1)
-        _mark_impacts(axes, result, chosen, seconds)
-    caption(drawing, _words(result, {name: float(error[chosen].max()) for name, error in errors.items()}))
+        if times.size:
+            axes.plot(
+                times, np.zeros(times.size), "|", ms=6, mew=0.7, color=style.CONTACT,
+                transform=axes.get_xaxis_transform(), clip_on=False, zorder=4,
+            )  # fmt: skip
+    caption(drawing, _words(result, {name: float(error.max()) for name, error in errors.items()}))
     return drawing
+
+
+# --- panels over time ---
+
+COLUMNS = 400  # of a panel's width, in which the least and the greatest value of a dense curve are drawn
+TURNS = 3.0  # changes of direction in a column, from which on a curve is a block
 
 
 class Curve(NamedTuple):
@@ -181,43 +176,42 @@ def draw_panels(
     for axes, (unit, curves) in zip(rows, panels, strict=True):
         shown = readable(unit, max(float(np.nanmax(np.abs(curve.values), initial=0.0)) for curve in curves))
         for curve in curves:
-            time, values = seconds.scale * curve.time, shown.scale * curve.values
-            look: dict[str, Any] = {"ls": curve.dashes, "lw": 0.9, "rasterized": time.size > 20000}
-            if not curve.dashes:
-                look = {"ls": "", "marker": "o", "ms": 3.5, "mfc": "none", "mew": 1.0, "zorder": 3}
-            axes.plot(time, values, color=curve.colour, label=curve.label, **look)
-            band = None if curve.errors is None else shown.scale * curve.errors
-            extent = float(np.nanmax(values, initial=-math.inf) - np.nanmin(values, initial=math.inf))
-            if band is not None and float(band.max(initial=0.0)) > VISIBLE * max(extent, 1e-300):
-                axes.fill_between(time, values - band, values + band, color=curve.colour, alpha=0.25, lw=0.0)
-        label_values(axes, units.QUANTITIES.get(unit, "value"), shown.name)
+            _draw_curve(axes, curve, seconds.scale * curve.time, shown)
+        label_values(axes, quantity(unit), shown.name)
     drawing.align_ylabels(rows)
     rows[-1].set_xlabel(f"time [{seconds.name}]")
     rows[-1].set_xlim(seconds.scale * first, seconds.scale * last)
     return rows, seconds
 
 
-def label_values(axes: Axes, quantity: str, unit: str) -> None:
-    """Write beside an axis what is drawn along it, with no power of ten of its own above it."""
+def _draw_curve(axes: Axes, curve: Curve, time: Series, unit: DisplayUnit) -> None:
+    """Draw a curve over time in a unit; if it is so dense that it is a block, pale, with its envelope."""
+    values = unit.scale * curve.values
+    look: dict[str, Any] = {"ls": curve.dashes, "lw": 0.9, "rasterized": time.size > 20000}
+    if not curve.dashes:
+        look = {"ls": "", "marker": "o", "ms": 3.5, "mfc": "none", "mew": 1.0, "zorder": 3}
+    elif np.count_nonzero(np.diff(np.sign(np.diff(values)))) > TURNS * COLUMNS:
+        look |= {"ls": "-", "lw": 0.4, "alpha": 0.35}
+        edges = np.linspace(0, values.size, COLUMNS + 1).astype(int)[:-1]
+        for pick in (np.fmin, np.fmax):
+            axes.plot(time[edges], pick.reduceat(values, edges), color=curve.colour, lw=0.8, zorder=3)
+    axes.plot(time, values, color=curve.colour, label=curve.label, **look)
+    band = np.zeros(1) if curve.errors is None else unit.scale * curve.errors
+    extent = float(np.nanmax(values, initial=-math.inf) - np.nanmin(values, initial=math.inf))
+    if float(band.max(initial=0.0)) > VISIBLE * max(extent, 1e-300):
+        axes.fill_between(time, values - band, values + band, color=curve.colour, alpha=0.25, lw=0.0)
+
+
+def label_values(axes: Axes, what: str, unit: str) -> None:
+    """Label an axis with a quantity and its unit; it has no power of ten of its own above it."""
     if not PLAIN[0] < max(np.abs(axes.get_ylim())) < PLAIN[1]:
         axes.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
-    axes.set_ylabel(textwrap.fill(f"{quantity} [{unit}]", LETTERS))
+    axes.set_ylabel(textwrap.fill(f"{what} [{unit}]", LETTERS))
 
 
-def _mark_impacts(axes: Axes, result: Result, chosen: np.ndarray, seconds: DisplayUnit) -> None:
-    first, last = result.time[chosen][[0, -1]]
-    times = [
-        one.time
-        for joint in (*clearance_joints(result), *corners(result))
-        for one in result.onsets.get(joint, ())
-        if first <= one.time <= last
-    ]
-    if not times:
-        return
-    axes.plot(
-        seconds.scale * np.array(times), np.zeros(len(times)), "|", ms=6, mew=0.7, color=style.CONTACT,
-        transform=axes.get_xaxis_transform(), clip_on=False, zorder=4,
-    )  # fmt: skip
+def unit_of(axes: Axes) -> str:
+    """The unit in the label of an axis of values."""
+    return axes.get_ylabel().partition("[")[2].rstrip("]")
 
 
 def _words(result: Result, worst: dict[str, float]) -> str:
@@ -225,13 +219,10 @@ def _words(result: Result, worst: dict[str, float]) -> str:
     if any(result.onsets.values()):
         text += "Strokes on the time axis: impacts. "
     if not worst:
-        return text + "The run was not made to an accuracy: nothing tells its numerical error."
-    said_of = ", ".join(
-        f"{name} {units.said(error, result.unit(name), 2)}"
-        for name, error in list(worst.items())[:6]
-    )  # fmt: skip
-    more = f" and {len(worst) - 6} more" if len(worst) > 6 else ""
+        return text + "The numerical error is not known: the run was not made to an accuracy."
+    known = [f"{name} {units.said(error, result.unit(name), 2)}" for name, error in worst.items()]
+    more = f" and {len(known) - NAMED} more" if len(known) > NAMED else ""
     return (
-        f"{text}Largest numerical error at any record, shaded where it can be seen: {said_of}{more}; largest "
-        "around impacts, whose times are uncertain too."
+        f"{text}Largest numerical error at any record, shaded where it is visible: "
+        f"{', '.join(known[:NAMED])}{more}; largest around impacts, whose times are uncertain too."
     )

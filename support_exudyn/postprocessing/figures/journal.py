@@ -1,4 +1,4 @@
-"""A clearance pin of a run, ready to be drawn: where its journal is in the bore, when in contact."""
+"""A clearance pin of a run, ready to be drawn: where its journal is in the bore, and when it is in contact."""
 
 import math
 from dataclasses import dataclass
@@ -13,16 +13,22 @@ from user_forces.contact_state import Onset
 from user_forces.values.value import InputError, short
 
 Series = npt.NDArray[np.float64]
+Mask = npt.NDArray[np.bool_]
 NEEDED = ("eccentricity_x", "eccentricity_y", "depth")
+
+
+def _pins_with(result: Result, last: str) -> list[str]:
+    """Names of the pins that have a recorded channel of this name."""
+    named = [name for name in result.channels if name.startswith("pin.") and name.endswith(f".{last}")]
+    return [name.removeprefix("pin.").removesuffix(f".{last}") for name in named]
 
 
 def clearance_joints(result: Result) -> tuple[str, ...]:
     """Names of the clearance pins whose journals were recorded, the first one of the scenario first."""
-    prefix, last = "pin.", f".{NEEDED[0]}"
-    named = [name[len(prefix) : -len(last)] for name in result.channels if name.endswith(last)]
-    known = [name for name in named if all(f"pin.{name}.{what}" in result.channels for what in NEEDED)]
-    order = list(result.scenario.pins)
-    return tuple(sorted(known, key=lambda name: order.index(name) if name in order else len(order)))
+    found = (_pins_with(result, what) for what in NEEDED)
+    known, order = set.intersection(*map(set, found)), list(result.scenario.pins)
+    named = [name for name in _pins_with(result, NEEDED[0]) if name in known]
+    return tuple(sorted(named, key=lambda name: order.index(name) if name in order else len(order)))
 
 
 def corners(result: Result) -> tuple[str, ...]:
@@ -30,22 +36,15 @@ def corners(result: Result) -> tuple[str, ...]:
     return tuple(name for name in result.onsets if result.scenario.contact_stem(name).startswith("guide."))
 
 
-def pins(result: Result) -> tuple[str, ...]:
-    """Names of all pins whose force was recorded, those with clearance first."""
-    prefix, last = "pin.", ".force"
-    named = [name[len(prefix) : -len(last)] for name in result.channels if name.startswith(prefix)
-             and name.endswith(last)]  # fmt: skip
-    with_clearance = [name for name in clearance_joints(result) if name in named]
-    return tuple(dict.fromkeys([*with_clearance, *named]))
-
-
 def chosen_pin(result: Result, pin: str | None, *, with_clearance: bool) -> str:
-    """A pin by name, or the first one if none is named.
+    """A pin with clearance, or any pin, by name; without a name the first one, with clearance if there is one.
 
     Raises InputError if there is no such pin, or none at all.
     """
-    known = clearance_joints(result) if with_clearance else pins(result)
-    kind = "clearance pin with recorded journal" if with_clearance else "pin with recorded force"
+    known, kind = clearance_joints(result), "clearance pin with recorded journal"
+    if not with_clearance:
+        forces, kind = _pins_with(result, "force"), "pin with recorded force"
+        known = tuple(dict.fromkeys([*(name for name in known if name in forces), *forces]))
     if not known:
         raise InputError(f"the run has no {kind}; allowed: runs that have one")
     if pin is None:
@@ -75,9 +74,14 @@ class JournalPath:
     spacing: float
 
     @property
-    def in_contact(self) -> npt.NDArray[np.bool_]:
+    def in_contact(self) -> Mask:
         """The records at which the journal is pressed in, as a mask (n,)."""
         return self.depth > 0.0
+
+    @property
+    def touches(self) -> Series:
+        """The times of the impacts [s], shape (impacts,)."""
+        return np.array([impact.time for impact in self.impacts])
 
     @property
     def directions(self) -> Series:
@@ -86,32 +90,28 @@ class JournalPath:
         By the straight line through the last two records of the flight before; where there are no two, by that
         between the records around the impact.
         """
-        return np.array([self._direction(impact.time) for impact in self.impacts])
+        after = np.searchsorted(self.time, self.touches)
+        found = []
+        for t, last in zip(self.touches, after - 1, strict=True):
+            first = last - 1
+            if first < 0 or self.in_contact[first] or self.in_contact[last]:
+                first, last = last, min(last + 1, self.time.size - 1)
+            ahead = (t - self.time[first]) / (self.time[last] - self.time[first])
+            x, y = (values[first] + ahead * (values[last] - values[first]) for values in (self.x, self.y))
+            found.append(math.atan2(y, x))
+        return np.array(found)
 
-    def _direction(self, t: float) -> float:
-        after = int(np.searchsorted(self.time, t))
-        last = after - 1
-        first = last - 1
-        if first < 0 or self.in_contact[first] or self.in_contact[last]:
-            x, y = (float(np.interp(t, self.time, values)) for values in (self.x, self.y))
-            return math.atan2(y, x)
-        ahead = (t - self.time[last]) / (self.time[last] - self.time[first])
-        x, y = (values[last] + ahead * (values[last] - values[first]) for values in (self.x, self.y))
-        return math.atan2(y, x)
-
-    def path(self) -> tuple[Series, Series, npt.NDArray[np.bool_]]:
+    def path(self) -> tuple[Series, Series, Mask]:
         """The path with the impacts and separations between records put in.
 
         Returns x, y (m,) [m], and which of the m - 1 pieces between them are contact. An impact lies on the
-        clearance circle in its direction, a separation in the direction that the records around it tell.
+        clearance circle in its direction, a separation in the direction between the records around it.
         """
-        separations = [
-            impact.separation_time for impact in self.impacts if impact.separation_time <= self.time[-1]
-        ]
-        separated = np.array([t for t in separations if t >= self.time[0]])
+        ends = np.array([impact.separation_time for impact in self.impacts])
+        separated = ends[(ends >= self.time[0]) & (ends <= self.time[-1])]
         turned = np.unwrap(np.arctan2(self.y, self.x))
         angles = np.concatenate([self.directions, np.interp(separated, self.time, turned)])
-        times = np.concatenate([self.time, [impact.time for impact in self.impacts], separated])
+        times = np.concatenate([self.time, self.touches, separated])
         x = np.concatenate([self.x, self.clearance * np.cos(angles)])
         y = np.concatenate([self.y, self.clearance * np.sin(angles)])
         pressed = np.concatenate([self.in_contact, np.zeros(angles.size, dtype=bool)])
@@ -120,9 +120,9 @@ class JournalPath:
         contact = (pressed[:-1] & pressed[1:]) | self._touching(0.5 * (times[:-1] + times[1:]))
         return x[order], y[order], contact
 
-    def _touching(self, times: Series) -> npt.NDArray[np.bool_]:
-        """Whether a located contact goes on at these times."""
-        begins = np.array([impact.time for impact in self.impacts])
+    def _touching(self, times: Series) -> Mask:
+        """Whether a located contact lasts at these times."""
+        begins = self.touches
         if not begins.size:
             return np.zeros(times.size, dtype=bool)
         ends = np.minimum([impact.separation_time for impact in self.impacts], [*begins[1:], np.inf])
@@ -137,26 +137,13 @@ def journal(result: Result, pin: str | None = None, after: float = 0.0, until: f
     """
     pin = chosen_pin(result, pin, with_clearance=True)
     chosen = inside(result, after, until)
-    time = result.time[chosen]
-    return JournalPath(
-        pin=pin,
-        clearance=clearance(result, pin),
-        time=time,
-        x=result[f"pin.{pin}.eccentricity_x"][chosen],
-        y=result[f"pin.{pin}.eccentricity_y"][chosen],
-        depth=result[f"pin.{pin}.depth"][chosen],
-        impacts=tuple(one for one in result.onsets.get(pin, ()) if time[0] <= one.time <= time[-1]),
-        spacing=float(np.median(np.diff(time))),
-    )
-
-
-def clearance(result: Result, pin: str) -> float:
-    """Radial clearance of a clearance pin [m]; in space also of each of a pair."""
-    scenario = result.scenario
-    whole = pin
-    if scenario.dimensions == 3 and pin not in scenario.clearance_pins:
+    scenario, time, whole = result.scenario, result.time[chosen], pin
+    if scenario.dimensions == 3 and pin not in scenario.clearance_pins:  # one of a pair
         whole = scenario.space.bearings[pin].pin
-    return scenario.clearance_pins[whole].contact.bearing.clearance
+    x, y, depth = (result[f"pin.{pin}.{what}"][chosen] for what in NEEDED)
+    impacts = tuple(one for one in result.onsets.get(pin, ()) if time[0] <= one.time <= time[-1])
+    clearance = scenario.clearance_pins[whole].contact.bearing.clearance
+    return JournalPath(pin, clearance, time, x, y, depth, impacts, float(np.median(np.diff(time))))
 
 
 def shortest_impact(impacts: tuple[Onset, ...]) -> float:

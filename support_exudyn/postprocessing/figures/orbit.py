@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from support_exudyn.postprocessing.figures import style, units
 from support_exudyn.postprocessing.figures.journal import JournalPath, Series, journal, shortest_impact
-from support_exudyn.postprocessing.figures.selection import said
+from support_exudyn.postprocessing.figures.selection import as_words, said
 from support_exudyn.postprocessing.figures.style import caption
 from support_exudyn.postprocessing.figures.units import DisplayUnit, readable
 from support_exudyn.simulation.result import Result
@@ -38,21 +38,19 @@ def orbit(result: Result, pin: str | None = None, after: float = 0.0, until: flo
     Raises InputError if there is no such clearance pin, or fewer than two records lie between the times.
     """
     shown = journal(result, pin, after, until)
-    title = f"Journal orbit, pin {shown.pin}, {1e3 * shown.clearance:g} mm clearance"
+    title = f"journal orbit in {as_words(shown.pin)}, radial clearance {1e3 * shown.clearance:g} mm"
     drawing = style.begin(170, 112, f"{title}, {said(result, after, until)}")
     grid = drawing.add_gridspec(3, 2, width_ratios=(1.15, 1.0), height_ratios=(1.0, 1.0, 0.12))
     unit = readable("m", max(shown.clearance, float(np.hypot(shown.x, shown.y).max())))
-    place = drawing.add_subplot(grid[:2, 0])
+    place, depth = drawing.add_subplot(grid[:2, 0]), drawing.add_subplot(grid[0, 1])
+    speeds, below = drawing.add_subplot(grid[1, 1], sharex=depth), drawing.add_subplot(grid[2, :])
     draw_path(place, shown, unit)
     place.set_title("a) path of the centre")
     over_time = readable("s", float(np.ptp(shown.time)))
-    depth = drawing.add_subplot(grid[0, 1])
     _draw_depth(depth, shown, over_time)
     depth.set_title("b) depth; negative: gap")
-    speeds = drawing.add_subplot(grid[1, 1], sharex=depth)
     _draw_speeds(speeds, shown, over_time)
     speeds.set_title("c) speeds of impact and separation")
-    below = drawing.add_subplot(grid[2, :])
     below.axis("off")
     handles, labels = place.get_legend_handles_labels()
     below.legend(handles, labels, loc="center left", ncols=len(labels), fontsize=7, borderaxespad=0.0)
@@ -78,18 +76,15 @@ def bore_axes(axes: Axes, clearance: float, x: Series, y: Series, unit: DisplayU
 def draw_path(axes: Axes, shown: JournalPath, unit: DisplayUnit) -> None:
     """The path in the colours of contact and flight, within the clearance circle, on equal axes."""
     x, y, contact = shown.path()
-    radius = unit.scale * shown.clearance
     bore_axes(axes, shown.clearance, shown.x, shown.y, unit)
     more: dict[str, Any] = {"rasterized": x.size > MANY, "zorder": 3}
     style.draw_pieces(axes, unit.scale * x, unit.scale * y, contact, WIDTHS, **more)
     if shown.impacts:
-        directions = shown.directions
+        radius, directions = unit.scale * shown.clearance, shown.directions
         axes.plot(radius * np.cos(directions), radius * np.sin(directions), label="impact", zorder=4, **IMPACT)
-    for n, mark, name in ((0, "o", "start"), (-1, "s", "end")):
-        axes.plot(
-            unit.scale * shown.x[n], unit.scale * shown.y[n], mark, ms=5, color=style.IDEAL, label=name,
-            zorder=5, mfc="white" if n == 0 else style.IDEAL,
-        )  # fmt: skip
+    for n, mark, name, inner in ((0, "o", "start", "white"), (-1, "s", "end", style.IDEAL)):
+        place = unit.scale * shown.x[n], unit.scale * shown.y[n]
+        axes.plot(*place, mark, ms=5, color=style.IDEAL, label=name, zorder=5, mfc=inner)
 
 
 def _draw_depth(axes: Axes, shown: JournalPath, over_time: DisplayUnit) -> None:
@@ -98,40 +93,30 @@ def _draw_depth(axes: Axes, shown: JournalPath, over_time: DisplayUnit) -> None:
     axes.axhline(0.0, color=style.IDEAL, lw=0.6)
     contact = shown.in_contact[:-1] & shown.in_contact[1:]
     style.draw_pieces(axes, time, depth, contact, WIDTHS, rasterized=time.size > MANY, zorder=3)
-    if shown.impacts:
-        times = over_time.scale * np.array([impact.time for impact in shown.impacts])
-        axes.plot(times, np.zeros(times.size), zorder=4, **IMPACT)
+    axes.plot(over_time.scale * shown.touches, np.zeros(len(shown.impacts)), zorder=4, **IMPACT)
     axes.set(xlabel=f"time [{over_time.name}]", ylabel=f"depth [{unit.name}]", xlim=time[[0, -1]])
 
 
 def _draw_speeds(axes: Axes, shown: JournalPath, over_time: DisplayUnit) -> None:
-    fastest = max((impact.speed for impact in shown.impacts), default=0.0)
-    unit = readable("m/s", fastest)
+    separated = [one for one in shown.impacts if one.separation_time <= shown.time[-1]]
+    ends = np.array([one.separation_time for one in separated])
+    kinds = (
+        (shown.touches, [one.speed for one in shown.impacts], "v", style.IDEAL, "white", "impact"),
+        (ends, [one.separation_velocity for one in separated], "^", style.FLIGHT, style.FLIGHT, "separation"),
+    )
+    unit = readable("m/s", max(kinds[0][1], default=0.0))
     axes.set(xlabel=f"time [{over_time.name}]", ylabel=f"speed [{unit.name}]")
     if not shown.impacts:
-        said_of = "in contact throughout" if shown.in_contact.all() else "no impact"
-        axes.text(0.5, 0.5, said_of, transform=axes.transAxes, ha="center", va="center")
+        text = "in contact throughout" if shown.in_contact.all() else "no impact"
+        axes.text(0.5, 0.5, text, transform=axes.transAxes, ha="center", va="center")
         axes.set_yticks([])
         return
-    separated = [impact for impact in shown.impacts if impact.separation_time <= shown.time[-1]]
-    for times, speeds, mark, colour, label in (
-        ([t.time for t in shown.impacts], [t.speed for t in shown.impacts], "v", style.IDEAL, "impact"),
-        (
-            [t.separation_time for t in separated],
-            [t.separation_velocity for t in separated],
-            "^",
-            style.FLIGHT,
-            "separation",
-        ),
-    ):
-        axes.plot(
-            over_time.scale * np.array(times), unit.scale * np.array(speeds), mark, ms=3.5, color=colour,
-            mfc="white" if mark == "v" else colour, mew=0.8, label=label,
-        )  # fmt: skip
-    axes.set_ylim(
-        0.0, 1.1 * unit.scale * max(fastest, *(impact.separation_velocity for impact in shown.impacts), 1e-30)
-    )
-    axes.legend(loc="upper right", fontsize=7)
+    for times, speeds, mark, colour, inner, label in kinds:
+        values = unit.scale * np.array(speeds)
+        axes.plot(over_time.scale * times, values, mark, ms=3.5, color=colour, mfc=inner, mew=0.8, label=label)
+    highest = max(one for _, speeds, *_ in kinds for one in (*speeds, 1e-30))
+    axes.set_ylim(0.0, 1.1 * unit.scale * highest)
+    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, fontsize=7, borderaxespad=0.0)
 
 
 def _words(result: Result, shown: JournalPath) -> str:
@@ -145,14 +130,12 @@ def _words(result: Result, shown: JournalPath) -> str:
             f"Impacts ({len(shown.impacts)}) and separations are put in between them at the times when they "
             "were located, impacts on the circle in the direction of the last flight. "
         )
-    shortest = shortest_impact(shown.impacts)
-    if shortest < 2.0 * shown.spacing:
+    if (shortest := shortest_impact(shown.impacts)) < 2.0 * shown.spacing:
         text += (
             f"The shortest impact lasts {units.said(shortest, 's')}: its depth falls between the records; a "
             "smaller record_period shows it. "
         )
-    deepest = float(shown.depth.max())
-    if deepest > 0.0:
+    if (deepest := float(shown.depth.max())) > 0.0:
         text += f"Deepest record: {units.said(deepest, 'm')}. "
     if result.scenario.dimensions == 3:
         text += "In space: the middle of the journal; the depth is that where it is deepest along the pin. "

@@ -9,8 +9,15 @@ from matplotlib.figure import Figure
 from support_exudyn.files.series.named_series import SeriesFile
 from support_exudyn.files.series.units import converted
 from support_exudyn.postprocessing.figures import style
-from support_exudyn.postprocessing.figures.channels import Curve, draw_panels, error_over_time
+from support_exudyn.postprocessing.figures.channels import (
+    Curve,
+    draw_panels,
+    error_over_time,
+    label_values,
+    unit_of,
+)
 from support_exudyn.postprocessing.figures.selection import common_records, inside, matching, said
+from support_exudyn.postprocessing.figures.units import quantity
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
 
@@ -40,15 +47,29 @@ def overlay(
     has two units, or if no records lie between the times.
     """
     panels = of_runs(runs, _channels(runs, channels, len(curves)), after, until)
-    for n, (name, found) in enumerate(curves.items(), len(runs)):
-        drawn = {channel: _measured(name, n, found, channel, runs, after, until) for channel in panels}
-        if not any(drawn.values()):
-            raise InputError(_none_drawn(found, panels, runs, after, until))
-        for channel, one in drawn.items():
-            panels[channel] += one
+    end, notes = max(float(one.time[-1]) for one in runs.values()), []
+    for look, (name, file) in zip(CURVES[len(runs) :], curves.items(), strict=False):
+        series = {channel: file.series[channel] for channel in panels if channel in file.series}
+        drawn = 0
+        for channel, one in series.items():
+            unit = next(run.unit(channel) for run in runs.values() if channel in run.channels)
+            values = converted(one, unit)
+            chosen = (one.time >= after) & (one.time <= min(until, end)) & np.isfinite(values)
+            dashes = "" if (count := int(chosen.sum())) <= FEW else look[1]
+            if count:
+                curve = Curve(name, one.time[chosen], values[chosen], np.zeros(count), look[0], dashes)
+                panels[channel].append(curve)
+            drawn += count
+        if not drawn:
+            raise InputError(_none_drawn(file, list(panels), (max(after, 0.0), min(until, end))))
+        beyond = max(int((one.time > end).sum()) for one in series.values())
+        if beyond and until >= end:
+            notes.append(f"{beyond} points of {name}")
     title = f"{_several([*runs, *curves])}, {said(next(iter(runs.values())), after, until)}"
-    files = f" Nothing is said of the errors of {_several(curves)}." if curves else ""
-    return draw(runs, panels, title, "", files + _left_out(curves, panels, runs, until))
+    more = f" The errors of {_several(curves)} are not known." if curves else ""
+    if notes:
+        more += f" {' and '.join(notes)} beyond the end of the run, {end:g} s, are not drawn."
+    return draw(runs, panels, title, "", more)
 
 
 def of_runs(
@@ -65,54 +86,18 @@ def of_runs(
     return panels
 
 
-def _measured(
-    name: str, n: int, found: SeriesFile, channel: str, runs: Mapping[str, Result], after: float, until: float
-) -> list[Curve]:
-    """The curve of a file for a channel, with the n-th look; none if it has none. Few points are marks."""
-    run = next(run for run in runs.values() if channel in run.channels)
-    if channel not in found.series:
-        return []
-    values, time = converted(found.series[channel], run.unit(channel)), found.series[channel].time
-    chosen = (time >= after) & (time <= min(until, _end(runs))) & np.isfinite(values)
-    colour, dashes = CURVES[n % len(CURVES)]
-    known = np.zeros(int(chosen.sum()))
-    look = "" if known.size <= FEW else dashes
-    return [Curve(name, time[chosen], values[chosen], known, colour, look)] if chosen.any() else []
-
-
-def _end(runs: Mapping[str, Result]) -> float:
-    """Last time of all runs [s]."""
-    return max(float(one.time[-1]) for one in runs.values())
-
-
-def _none_drawn(
-    found: SeriesFile, channels: Iterable[str], runs: Mapping[str, Result], after: float, until: float
-) -> str:
+def _none_drawn(file: SeriesFile, channels: Sequence[str], ends: tuple[float, float]) -> str:
     """Why nothing of a file is drawn: it lacks the channels, or its times are others."""
-    if times := [found.series[channel].time for channel in channels if channel in found.series]:
+    times = [file.series[channel].time for channel in channels if channel in file.series]
+    if times:
         return (
-            f"{found.path}: its times, {times[0][0]:g} to {times[0][-1]:g} s, have no number between "
-            f"{max(after, 0.0):g} and {min(until, _end(runs)):g} s; allowed: some within the run"
+            f"{file.path}: its times, {times[0][0]:g} to {times[0][-1]:g} s, have no number between "
+            f"{ends[0]:g} and {ends[1]:g} s; allowed: some within the run"
         )
-    known = ", ".join(list(found.series)[:6])
     return (
-        f"{found.path}: has a series of none of these channels; allowed: names such as "
-        f"{next(iter(channels))}; it has {known}"
+        f"{file.path}: has a series of none of these channels; allowed: names such as {channels[0]}; it has "
+        f"{', '.join(list(file.series)[:6])}"
     )
-
-
-def _left_out(
-    curves: Mapping[str, SeriesFile], channels: Iterable[str], runs: Mapping[str, Result], until: float
-) -> str:
-    """A sentence on points of files beyond the end of the runs; empty if there are none."""
-    end = _end(runs)
-    beyond = {
-        name: max(int((found.series[one].time > end).sum()) for one in channels if one in found.series)
-        for name, found in curves.items()
-        if until >= end
-    }
-    told = [f"{number} points of {name}" for name, number in beyond.items() if number]
-    return f" {' and '.join(told)} beyond the end of the run, {end:g} s, are not drawn." if told else ""
 
 
 def difference(
@@ -125,15 +110,13 @@ def difference(
     (reference, first), *others = runs.items()
     names = [channel for channel in _channels(runs, channels) if channel in first.channels]
     panels: dict[str, list[Curve]] = {channel: [] for channel in names}
-    for n, (name, run) in enumerate(others):
+    for (name, run), look in zip(others, CURVES, strict=False):
         mine, its = common_records(first, run, after, until)
         for channel in (one for one in names if one in run.channels):
             known = error_over_time(first, channel), error_over_time(run, channel)
             band = None if known[0] is None or known[1] is None else known[0][mine] + known[1][its]
             values = run[channel][its] - first[channel][mine]
-            panels[channel].append(
-                Curve(f"{name} less {reference}", first.time[mine], values, band, *CURVES[n])
-            )
+            panels[channel].append(Curve(f"{name} less {reference}", first.time[mine], values, band, *look))
     panels = {channel: curves for channel, curves in panels.items() if curves}
     if not panels:
         raise InputError(
@@ -171,11 +154,15 @@ def draw(
     """Draw the curves of channels, a panel each; what: before the names of channels, more: in the caption."""
     lines = max(len(curves) for curves in panels.values())
     drawing = style.begin(170, REST_MM + PANEL_MM * len(panels) + LINE_MM * lines, title)
-    owners = {channel: next(run for run in runs.values() if channel in run.channels) for channel in panels}
-    rows, _ = draw_panels(drawing, [(owners[name].unit(name), curves) for name, curves in panels.items()])
-    for axes, (channel, run) in zip(rows, owners.items(), strict=True):
-        axes.set_title(f"{what}{channel}: {run.channels[channel].meaning}", fontsize=8)
-    handles = {str(line.get_label()): line for axes in rows for line in axes.lines}
+    channels = {
+        name: next(run for run in runs.values() if name in run.channels).channels[name] for name in panels
+    }
+    rows, _ = draw_panels(drawing, [(channels[name].unit, curves) for name, curves in panels.items()])
+    for axes, (name, channel) in zip(rows, channels.items(), strict=True):
+        axes.set_title(f"{what}{name}: {channel.meaning}", fontsize=8)
+        label_values(axes, quantity(channel.unit, (name,)), unit_of(axes))
+    labelled = [axes.get_legend_handles_labels() for axes in rows]
+    handles = {label: line for lines, labels in labelled for line, label in zip(lines, labels, strict=True)}
     rows[0].legend(
         list(handles.values()), list(handles), loc="lower left", bbox_to_anchor=(0.0, 1.12), fontsize=7,
         borderaxespad=0.0,
@@ -185,7 +172,7 @@ def draw(
     errors = (
         "Not all runs were made to an accuracy: the numerical errors of those are unknown."
         if any(curve.errors is None for curve in every)
-        else "Shaded where it can be seen: estimated numerical error of the runs."
+        else "Shaded where it is visible: estimated numerical error of the runs."
     )
     style.caption(drawing, f"Records, joined by straight lines{marks}. {errors}{more}")
     return drawing

@@ -5,16 +5,15 @@ from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from support_exudyn.model.drives.drive import Held, Reciprocating, Steady
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.postprocessing.figures import style, units
-from support_exudyn.postprocessing.figures.journal import JournalPath, Series, clearance_joints, journal
+from support_exudyn.postprocessing.figures.journal import JournalPath, Mask, Series, clearance_joints, journal
 from support_exudyn.postprocessing.figures.orbit import bore_axes
-from support_exudyn.postprocessing.figures.selection import CLEARANCE, inside, said, spacing
+from support_exudyn.postprocessing.figures.selection import CLEARANCE, as_words, inside, said, spacing
 from support_exudyn.postprocessing.figures.style import caption
 from support_exudyn.postprocessing.figures.units import DEGREES, DisplayUnit, readable
 from support_exudyn.scenario.scenario import Scenario
@@ -29,7 +28,7 @@ FLIGHT_MARK = {**DOT, "color": style.FLIGHT, "marker": "^", "ms": 4.0}
 PLAIN_MARK = {**DOT, "color": style.IDEAL}
 BELOW: dict[str, Any] = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.19), "fontsize": 7}  # a legend
 NARROW = 0.01  # share of its size below which only the spread of a channel is shown
-SAME = 1e-4  # ... and below which all points are the same, which they are then seen to be
+SAME = 1e-4  # ... and below which all points are shown as the same
 
 
 class PoincareSection(NamedTuple):
@@ -38,14 +37,6 @@ class PoincareSection(NamedTuple):
     time: Series
     first: Series
     second: Series
-
-
-class SectionWindow(NamedTuple):
-    """What of a run is drawn, from and to [s], and the phase of the period, from 0 to 1."""
-
-    after: float = 0.0
-    until: float = math.inf
-    phase: float = 0.0
 
 
 def period(scenario: Scenario) -> float | None:
@@ -81,10 +72,8 @@ def periodic_times(result: Result, phase: float = 0.0, after: float = 0.0, until
     if length is None:
         return np.empty(0)
     first, last = max(after, float(result.time[0])), min(until, float(result.time[-1]))
-    n = np.arange(
-        math.ceil((first - CLEARANCE) / length - phase), math.floor((last + CLEARANCE) / length - phase) + 1
-    )
-    return np.clip((n + phase) * length, first, last)
+    low, high = (first - CLEARANCE) / length - phase, (last + CLEARANCE) / length - phase
+    return np.clip((np.arange(math.ceil(low), math.floor(high) + 1) + phase) * length, first, last)
 
 
 def stroboscopic(
@@ -97,8 +86,8 @@ def stroboscopic(
     times = periodic_times(result, phase, after, until)
     if not times.size:
         raise InputError(
-            "a section once in every period: the drives have no common period, or none begins in the piece "
-            "that was asked for; allowed: steady cranks and reciprocating drives"
+            "a section once in every period: the drives have no common period, or none begins in the chosen "
+            "piece; allowed: steady cranks and reciprocating drives"
         )
     return PoincareSection(times, *(np.interp(times, result.time, result[name]) for name in (first, second)))
 
@@ -121,7 +110,7 @@ def poincare(
     Arguments:
         pin: name of a clearance pin; the first one by default.
         after, until: what of the run is drawn [s].
-        phase: of the period at which it is looked at, from 0 to 1.
+        phase: of the period at which it is sampled, from 0 to 1.
         channels: names of the two of the second panel; only where the drive is periodic.
 
     Raises InputError if there is no such pin, no such record or impact, or no period where channels are asked
@@ -132,36 +121,52 @@ def poincare(
         raise InputError(f"channels = {short(list(channels))}: allowed for a section: two names")
     times = periodic_times(result, phase, after, until)
     if times.size >= FEWEST_PERIODS:
-        return _by_period(result, pin, SectionWindow(after, until, phase), channels)
+        return _by_period(result, pin, (phase, after, until), channels)
     if channels:
         raise InputError(
             f"channels of a section: {times.size} periods of the drive lie in the chosen piece of the run; "
             f"allowed: {FEWEST_PERIODS} and more, of a drive with a period"
         )
-    return _by_impact(result, journal(result, pin, after, until), after, until)
+    return _by_impact(result, journal(result, pin, after, until), said(result, after, until))
 
 
 # --- once in a period ---
 
 
-def _by_period(result: Result, pin: str | None, window: SectionWindow, channels: Sequence[str]) -> Figure:
-    after, until, phase = window
+def _by_period(
+    result: Result, pin: str | None, window: tuple[float, float, float], channels: Sequence[str]
+) -> Figure:
+    """window: phase, and the times between which the run is drawn [s]."""
+    phase, after, until = window
     shown = journal(result, pin, after, until) if pin is not None or clearance_joints(result) else None
     pair = tuple(channels) or _pair(result, shown.pin if shown else None)
     if shown is None and not pair:
         raise InputError("a section: the run has neither a clearance pin nor a moving body on record")
-    of = f", pin {shown.pin}" if shown is not None else ""
-    title = f"Poincare section once in a period{of}, {said(result, after, until)}"
+    of = f", {as_words(shown.pin)}" if shown is not None else ""
+    title = f"Poincaré section once in a period{of}, {said(result, after, until)}"
     drawing = style.begin(170, 95 if shown else 110, title)
     panels = drawing.subplots(1, bool(shown) + bool(pair), squeeze=False)[0]
-    closed = None
+    closed: Mask | None = None
     if shown is not None:
-        closed = _draw_places(panels[0], result, shown, window)
+        x, y, depth = (f"pin.{shown.pin}.{what}" for what in ("eccentricity_x", "eccentricity_y", "depth"))
+        places = stroboscopic(result, x, y, *window)
+        closed = np.interp(places.time, result.time, result[depth]) > 0.0
+        unit = readable("m", max(shown.clearance, float(np.hypot(places.first, places.second).max())))
+        bore_axes(panels[0], shown.clearance, places.first, places.second, unit)
+        _marked(panels[0], unit.scale * places.first, unit.scale * places.second, closed)
+        panels[0].legend(ncols=3, **BELOW)
         panels[0].set_title("a) journal's centre in its bore")
     if pair:
-        _draw_section(panels[-1], result, (pair[0], pair[1]), window, closed)
+        section = stroboscopic(result, pair[0], pair[1], *window)
+        (x_values, x_name), (y_values, y_name) = (
+            _readable_spread(name, values, result.unit(name))
+            for name, values in zip(pair, (section.first, section.second), strict=True)
+        )
+        _marked(panels[-1], x_values, y_values, closed)
+        panels[-1].set(xlabel=x_name, ylabel=y_name, xlim=_widened(x_values), ylim=_widened(y_values))
+        panels[-1].locator_params(nbins=4)
         panels[-1].set_title("b) two channels" if shown is not None else "two channels")
-    count, length = periodic_times(result, phase, after, until).size, period(result.scenario) or 0.0
+    count, length = periodic_times(result, *window).size, period(result.scenario) or 0.0
     caption(
         drawing,
         f"{count} points, one in every period of the drive ({units.said(length, 's', 4)}) at {phase:g} of it; "
@@ -177,41 +182,9 @@ def _pair(result: Result, pin: str | None) -> tuple[str, ...]:
     linkage = result.scenario.linkage
     candidates = [(f"{s.body}.x", f"{s.body}.velocity_x") for s in linkage.slides.values()]
     places = [linkage.pins[pin]] if pin is not None and pin in linkage.pins else list(linkage.pins.values())
-    for place in places:
-        bodies = [body for body in (place.second, place.first) if body != GROUND]
-        candidates += [(f"{body}.angle", f"{body}.angular_velocity") for body in bodies]
+    bodies = [body for place in places for body in (place.second, place.first) if body != GROUND]
+    candidates += [(f"{body}.angle", f"{body}.angular_velocity") for body in bodies]
     return next((pair for pair in candidates if all(name in result.channels for name in pair)), ())
-
-
-def _draw_places(
-    axes: Axes, result: Result, shown: JournalPath, window: SectionWindow
-) -> npt.NDArray[np.bool_]:
-    """The journal's centre at every period. Returns at which of them it is in contact."""
-    x, y, depth = (f"pin.{shown.pin}.{what}" for what in ("eccentricity_x", "eccentricity_y", "depth"))
-    section = stroboscopic(result, x, y, window.phase, window.after, window.until)
-    closed: npt.NDArray[np.bool_] = np.interp(section.time, result.time, result[depth]) > 0.0
-    unit = readable("m", max(shown.clearance, float(np.hypot(section.first, section.second).max())))
-    bore_axes(axes, shown.clearance, section.first, section.second, unit)
-    _marked(axes, unit.scale * section.first, unit.scale * section.second, closed)
-    axes.legend(ncols=3, **BELOW)
-    return closed
-
-
-def _draw_section(
-    axes: Axes,
-    result: Result,
-    pair: tuple[str, str],
-    window: SectionWindow,
-    closed: npt.NDArray[np.bool_] | None,
-) -> None:
-    section = stroboscopic(result, *pair, window.phase, window.after, window.until)
-    (x, x_name), (y, y_name) = (
-        _readable_spread(name, values, result.unit(name))
-        for name, values in zip(pair, (section.first, section.second), strict=True)
-    )
-    _marked(axes, x, y, closed)
-    axes.set(xlabel=x_name, ylabel=y_name, xlim=_widened(x), ylim=_widened(y))
-    axes.locator_params(nbins=4)
 
 
 def _readable_spread(name: str, values: Series, unit: str) -> tuple[Series, str]:
@@ -226,13 +199,13 @@ def _readable_spread(name: str, values: Series, unit: str) -> tuple[Series, str]
 
 
 def _widened(values: Series) -> tuple[float, float]:
-    """Limits of an axis; around values that are all the same, so far apart that ticks can be told apart."""
+    """Limits of an axis; around values that are all the same, so far apart that its ticks differ."""
     low, high = float(values.min()), float(values.max())
     margin = max(0.08 * (high - low), 0.01 * NARROW * max(abs(low), abs(high)))
     return low - margin, high + margin
 
 
-def _marked(axes: Axes, x: Series, y: Series, closed: npt.NDArray[np.bool_] | None) -> None:
+def _marked(axes: Axes, x: Series, y: Series, closed: Mask | None) -> None:
     if closed is None:
         axes.plot(x, y, **PLAIN_MARK)
         return
@@ -244,18 +217,17 @@ def _marked(axes: Axes, x: Series, y: Series, closed: npt.NDArray[np.bool_] | No
 # --- at every impact ---
 
 
-def _by_impact(result: Result, shown: JournalPath, after: float, until: float) -> Figure:
+def _by_impact(result: Result, shown: JournalPath, window: str) -> Figure:
+    """window: the piece of the run in words."""
     if len(shown.impacts) < FEWEST_IMPACTS:
         why = "it is in contact throughout" if shown.in_contact.all() else "the drive has too few periods there"
         raise InputError(
-            f"a section of pin {shown.pin} from {said(result, after, until)}: it has "
-            f"{len(shown.impacts)} impacts, and {why}; allowed: at least {FEWEST_IMPACTS} impacts, or "
-            f"{FEWEST_PERIODS} periods of a periodic drive"
+            f"a section of pin {shown.pin} from {window}: it has {len(shown.impacts)} impacts, and {why}; "
+            f"allowed: at least {FEWEST_IMPACTS} impacts, or {FEWEST_PERIODS} periods of a periodic drive"
         )
     speeds = np.array([impact.speed for impact in shown.impacts])
     unit = readable("m/s", float(speeds.max()))
-    title = f"Poincare section by impacts, pin {shown.pin}, {said(result, after, until)}"
-    drawing = style.begin(170, 95, title)
+    drawing = style.begin(170, 95, f"Poincaré section by impacts, {as_words(shown.pin)}, {window}")
     places, returns = drawing.subplots(1, 2)
     _draw_impacts(places, DEGREES * _together(shown.directions), unit.scale * speeds, unit)
     _draw_returns(returns, unit.scale * speeds, unit)
@@ -263,7 +235,7 @@ def _by_impact(result: Result, shown: JournalPath, after: float, until: float) -
     why = "The drive has no period" if none else f"Fewer than {FEWEST_PERIODS} periods of the drive lie here"
     caption(
         drawing,
-        f"{why}, so the run is looked at whenever journal and bore touch: {speeds.size} "
+        f"{why}, so the run is sampled whenever journal and bore make contact: {speeds.size} "
         "impacts, located in time. Directions are those of the last two records before the impact. On the "
         "dashed line of (b) the next impact is as fast as the one before; below it the journal comes to rest.",
     )
@@ -285,7 +257,7 @@ def _draw_impacts(axes: Axes, directions: Series, speeds: Series, unit: DisplayU
     axes.set(xlabel="direction of the impact from +x [deg]", ylabel=f"initial impact velocity [{unit.name}]")
     axes.set_ylim(0.0, None)
     axes.margins(x=0.08)
-    axes.set_title("a) where and how fast it makes contact")
+    axes.set_title("a) direction and velocity of impacts")
     axes.legend(**BELOW)
 
 
@@ -297,5 +269,5 @@ def _draw_returns(axes: Axes, speeds: Series, unit: DisplayUnit) -> None:
     axes.set(
         xlabel=f"initial impact velocity of an impact [{unit.name}]", ylabel=f"of the next one [{unit.name}]"
     )
-    axes.set_title("b) from impact to make contact")
+    axes.set_title("b) from impact to impact")
     axes.legend(ncols=2, **BELOW)

@@ -10,7 +10,7 @@ from scipy import signal
 
 from support_exudyn.postprocessing.figures import style, units
 from support_exudyn.postprocessing.figures.journal import Series, chosen_pin, shortest_impact
-from support_exudyn.postprocessing.figures.selection import inside, said
+from support_exudyn.postprocessing.figures.selection import as_words, inside, said
 from support_exudyn.postprocessing.figures.style import caption
 from support_exudyn.postprocessing.figures.units import readable
 from support_exudyn.simulation.result import Result
@@ -86,20 +86,14 @@ def spectrum(time: Series, values: Series, segments: int = SEGMENTS) -> Spectrum
             f"{FEWEST * segments} records"
         )
     rate = 1.0 / spacing
-    frequency, density = signal.welch(values, rate, WINDOW, length, detrend=straight, scaling="density")
-    _, power = signal.welch(values, rate, WINDOW, length, detrend=straight, scaling="spectrum")
-    return Spectrum(
-        frequency=frequency,
-        amplitude=np.sqrt(2.0 * power),
-        density=density,
-        resolution=float(frequency[1]),
-        spacing=spacing,
-        averaged=(values.size - length) // (length - length // 2) + 1,
-        resampled=resampled,
-    )
+    frequency, density = signal.welch(values, rate, WINDOW, length, detrend=_straight, scaling="density")
+    _, power = signal.welch(values, rate, WINDOW, length, detrend=_straight, scaling="spectrum")
+    averaged = (values.size - length) // (length - length // 2) + 1
+    amplitude = np.sqrt(2.0 * power)
+    return Spectrum(frequency, amplitude, density, float(frequency[1]), spacing, averaged, resampled)
 
 
-def straight(pieces: Series) -> Series:
+def _straight(pieces: Series) -> Series:
     """Pieces of a signal (..., n) without their straight trends."""
     found: Series = signal.detrend(pieces)
     return found
@@ -146,14 +140,15 @@ def force_spectrum(
     chosen = inside(result, after, until, FEWEST)
     time, force = result.time[chosen], result[f"pin.{pin}.force"][chosen]
     found = spectrum(time, force, segments)
-    title = f"Spectrum of the force in pin {pin}, {said(result, after, until)}"
+    title = f"spectrum of the force in {as_words(pin)}, {said(result, after, until)}"
     drawing = style.begin(170, 130 if over_time else 85, title)
     panels = drawing.subplots(2 if over_time else 1, 1, squeeze=False)[:, 0]
     _draw(panels[0], found, style.CONTACT if pin in result.onsets else style.IDEAL)
     if over_time:
         panels[0].set_title("a) amplitudes")
         _draw_over_time(panels[1], time, force)
-    caption(drawing, _words(result, pin, found, float(time[0]), float(time[-1]), over_time))
+    impacts = tuple(one for one in result.onsets.get(pin, ()) if time[0] <= one.time <= time[-1])
+    caption(drawing, _words(found, shortest_impact(impacts), over_time))
     return drawing
 
 
@@ -166,26 +161,22 @@ def _draw(axes: Axes, found: Spectrum, colour: str) -> None:
     if frequencies.size > MANY:  # low frequencies, where machines run, would be a line at the edge
         axes.set_xscale("log")
         axes.set_xlim(frequencies[0], hertz.scale * found.nyquist)
-    if not amplitude.max() > 0.0:
+    if not (highest := float(amplitude.max())) > 0.0:
         return
-    axes.set_yscale("log")
-    axes.set_ylim(
-        max(0.5 * float(amplitude.min()), 1e-9 * float(amplitude.max())), 20.0 * float(amplitude.max())
-    )
+    axes.set(yscale="log", ylim=(max(0.5 * float(amplitude.min()), 1e-9 * highest), 20.0 * highest))
     drawn: list[tuple[float, int]] = []
     for letter, (frequency, height) in zip(LETTERS, found.peaks(), strict=False):
-        shown = axes.transData.transform((hertz.scale * frequency, 1.0))
-        across = float(axes.transAxes.inverted().transform(shown)[0])
+        place = hertz.scale * frequency, unit.scale * height
+        across = float((axes.transData + axes.transAxes.inverted()).transform(place)[0])
         # one above the other where peaks are close
         above = max((up + 8 for other, up in drawn if abs(across - other) < CLOSE), default=4)
         drawn.append((across, above))
-        place = hertz.scale * frequency, unit.scale * height
-        axes.plot(*place, "v", ms=4, color=style.IDEAL, mfc="white", mew=0.8)
-        axes.annotate(letter, place, (0, above), textcoords="offset points", ha="center", fontsize=7)
         half_a_bin = 0.5 * hertz.scale * found.resolution
         label = f"{letter}: {place[0]:.4g} ± {half_a_bin:.2g} {hertz.name}, {place[1]:.3g} {unit.name}"
+        axes.plot(*place, "v", ms=4, color=style.IDEAL, mfc="white", mew=0.8)
+        axes.annotate(letter, place, (0, above), textcoords="offset points", ha="center", fontsize=7)
         axes.plot([], [], ls="none", label=label)
-    if found.peaks():
+    if drawn:
         axes.legend(loc="upper right", fontsize=7, handlelength=0.0, title="highest peaks", title_fontsize=7)
 
 
@@ -194,7 +185,7 @@ def _draw_over_time(axes: Axes, time: Series, force: Series) -> None:
     values, spacing, _ = equally_spaced(time, force)
     length = max(FEWEST, min(256, values.size // 16))
     frequency, moments, power = signal.spectrogram(
-        values, fs=1.0 / spacing, window=WINDOW, nperseg=length, noverlap=length // 2, detrend=straight,
+        values, fs=1.0 / spacing, window=WINDOW, nperseg=length, noverlap=length // 2, detrend=_straight,
         scaling="spectrum",
     )  # fmt: skip
     amplitude = np.sqrt(2.0 * power)
@@ -206,30 +197,27 @@ def _draw_over_time(axes: Axes, time: Series, force: Series) -> None:
         vmax=0.0, shading="nearest", rasterized=True,
     )  # fmt: skip
     axes.set(xlabel=f"time [{seconds.name}]", ylabel=f"frequency [{hertz.name}]")
-    axes.set_ylim(0.0, hertz.scale * 0.5 / spacing)
-    axes.set_xlim(*(seconds.scale * time[[0, -1]]))
+    axes.set(xlim=seconds.scale * time[[0, -1]], ylim=(0.0, hertz.scale * 0.5 / spacing))
     axes.grid(False)
     piece = units.said(length * spacing, "s")
     axes.set_title(f"b) over time, pieces of {piece}, resolved to {1.0 / (length * spacing):.3g} Hz")
     axes.figure.colorbar(drawn, ax=axes, label="amplitude [dB]", pad=0.01)
 
 
-def _words(result: Result, pin: str, found: Spectrum, first: float, last: float, over_time: bool) -> str:
+def _words(found: Spectrum, shortest: float, over_time: bool) -> str:
     text = (
         f"Amplitude of a sine of each frequency, from records every {units.said(found.spacing, 's', 4)}"
         f"{' (interpolated to equal times)' if found.resampled else ''}: Welch's mean of {found.averaged} "
         f"overlapping pieces, without straight trend, Hann's window. Bins of "
         f"{units.said(found.resolution, 'Hz')}, a tone is {WIDTH:g} bins wide; "
-        f"nothing is told above {units.said(found.nyquist, 'Hz', 4)}. "
+        f"nothing is known above {units.said(found.nyquist, 'Hz', 4)}. "
     )
     if over_time:
         text += "In (b) 0 dB is the largest amplitude. "
     text += (
         "The records sample the force: what is faster than that, such as brief impacts, appears at lower "
-        "frequencies (aliasing); a smaller record_period tells. "
+        "frequencies (aliasing); a smaller record_period shows it. "
     )
-    impacts = tuple(one for one in result.onsets.get(pin, ()) if first <= one.time <= last)
-    shortest = shortest_impact(impacts)
     if shortest < FINE_ENOUGH * found.spacing:
         text += (
             f"The shortest impact lasts {units.said(shortest, 's')}: a record_period of "
