@@ -18,6 +18,7 @@ from matplotlib.patches import Rectangle
 
 from support_exudyn.files.whole_file import whole_file
 from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.postprocessing.figures.selection import in_line
 
 DIGITS = 7
 COLUMNS = ("panel", "curve", "x", "y", "x_low", "x_high", "y_low", "y_high", "value", "x_name", "y_name")
@@ -42,7 +43,7 @@ def save_drawing_data(drawing: Figure, path: Path) -> bool:
                 cells |= {f"{axis}_name": names[axis].get(cells.get(axis, ""), "") for axis in names}
                 rows.append({"panel": letter, "curve": curve, **cells})
         if len(rows) > before:
-            labels = _in_line(axes.get_xlabel()), _in_line(axes.get_ylabel())
+            labels = in_line(axes.get_xlabel()), in_line(axes.get_ylabel())
             notes.append(f"# panel {letter}: x = {labels[0]}; y = {labels[1]}\n")
     if not rows:
         return False
@@ -96,12 +97,10 @@ def drawn_data(axes: Axes) -> Iterator[tuple[str, Columns]]:
                 yield _name(item, f"area {place}"), {"x": x, "y": y}
     for image in axes.get_images():
         if np.ndim(pixels := _filled(image.get_array())) == 2:  # the middles of its pixels
-            left, right, bottom, top = image.get_extent()
-            rows, columns = pixels.shape
-            first, last = (top, bottom) if image.origin == "upper" else (bottom, top)
-            x = left + (np.arange(columns) + 0.5) * (right - left) / columns
-            y = first + (np.arange(rows) + 0.5) * (last - first) / rows
-            x, y = np.tile(x, rows), np.repeat(y, columns)
+            left, right, *ends = image.get_extent()
+            first, last = ends[::-1] if image.origin == "upper" else ends
+            y, x = (np.indices(pixels.shape) + 0.5) / np.reshape(pixels.shape, (2, 1, 1))
+            x, y = left + (right - left) * x.ravel(), first + (last - first) * y.ravel()
             yield _name(image, "map"), {"x": x, "y": y, "value": pixels.ravel()}
 
 
@@ -141,19 +140,15 @@ def _filled(data: Any) -> Series:
 
 def _tick_names(axis: Axis) -> dict[str, str]:
     """The names that stand at ticks instead of numbers, by their place in digits."""
-    places, labels = axis.get_majorticklocs(), [_in_line(one.get_text()) for one in axis.get_ticklabels()]
+    places, labels = axis.get_majorticklocs(), [in_line(one.get_text()) for one in axis.get_ticklabels()]
     words = any(any(map(str.isalpha, label)) and "mathdefault" not in label for label in labels)
     return dict(zip(map(_cell, places), labels, strict=False)) if words else {}
 
 
 def _name(item: Any, otherwise: str) -> str:
     """The label of a thing, unless it is one that matplotlib gave."""
-    text = _in_line(str(item.get_label() or ""))
+    text = in_line(str(item.get_label() or ""))
     return otherwise if not text or text.startswith("_") else text
-
-
-def _in_line(text: str) -> str:
-    return " ".join(text.split())
 
 
 def _cell(number: float) -> str:

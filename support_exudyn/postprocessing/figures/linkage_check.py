@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Mapping, Sequence
 
@@ -15,7 +16,8 @@ from support_exudyn.machines.check.transmission import LEAST
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.figures.linkage_drawing import GREY, START, LinkageDrawing
-from support_exudyn.postprocessing.figures.style import CURVES, Dashes
+from support_exudyn.postprocessing.figures.selection import as_words
+from support_exudyn.postprocessing.figures.style import CURVES
 
 GHOSTS = 3  # further postures of a crank that turns right round
 PANELS = 4  # drives that have curves of their own
@@ -45,7 +47,7 @@ def check_figure(report: CheckReport) -> Figure:
         _pins(drawing.add_subplot(grid[1, :wide]), ways[0])
         _holding(drawing.add_subplot(grid[1, wide : 2 * wide]), ways[0])
         if angles:
-            curves = {f"{one.pin}: {one.output}": np.degrees(one.angles) for one in angles}
+            curves = {f"{as_words(one.pin)}: {as_words(one.output)}": np.degrees(one.angles) for one in angles}
             _angles(drawing.add_subplot(grid[1, 4:]), ways[0], curves)
     for number, way in enumerate(ways if len(ways) > 1 else ()):
         first = 3 * (number % 2)
@@ -59,7 +61,8 @@ def _linkage(axes: Axes, report: CheckReport) -> None:
     """Bodies at the start, and pale ones at ends of ranges or over a turn; paths of traced points."""
     reached = [report.start.position, *(one.position for way in report.ways for one in way.moved)]
     drawing = LinkageDrawing(axes, report.linkage, report.blocks, reached)
-    for way, (colour, dashes) in zip(report.ways, _colours(report.ways), strict=True):
+    looks = list(zip(report.ways, itertools.cycle(CURVES), strict=False))
+    for way, (colour, dashes) in looks:
         drawing.paths([one.position for one in way.moved], colour)
         for one in _others(way, len(report.ways) == 1):
             drawing.posture(one.position, colour, dashes, strong=False)
@@ -68,23 +71,15 @@ def _linkage(axes: Axes, report: CheckReport) -> None:
         drawing.load(name, load)
     drawing.pin_names(report.start.position)
     drawing.names(report.start.position)
-    handles = [axes.plot([], [], color=START, lw=1.8, label=_start_label(report))[0]]
-    for way, (colour, dashes) in zip(report.ways, _colours(report.ways), strict=True):
-        others = _others(way, len(report.ways) == 1)
-        where = ", ".join(f"{way.shown(one.travel):.4g}" for one in others)
-        label = f"{way.label} at {where} {way.unit}"
-        if others:
+    starts = [way.at(0.0) for way in report.ways if len(way.drives) == 1]
+    label = f"start: {starts[0]}" if len(starts) == 1 else "start"
+    handles = [axes.plot([], [], color=START, lw=1.8, label=label)[0]]
+    for way, (colour, dashes) in looks:
+        if others := _others(way, len(report.ways) == 1):
+            where = ", ".join(f"{way.shown(one.travel):.4g}" for one in others)
+            label = f"{way.label} at {where} {way.unit}"
             handles.append(axes.plot([], [], color=colour, ls=dashes, lw=1.2, label=label)[0])
     axes.legend(handles=handles, loc="upper left", bbox_to_anchor=(0.0, -0.12), ncols=2, fontsize=7.5)
-
-
-def _start_label(report: CheckReport) -> str:
-    where = [way.at(0.0) for way in report.ways if len(way.drives) == 1]
-    return "start" + (f": {', '.join(where)}" if len(where) == 1 else "")
-
-
-def _colours(ways: Sequence[DriveWay]) -> list[tuple[str, Dashes]]:
-    return [CURVES[n % len(CURVES)] for n in range(len(ways))]
 
 
 def _others(way: DriveWay, alone: bool) -> list[Moved]:
@@ -125,14 +120,8 @@ def _curves(
     # in a change point itself forces are not determined
     shown = [all(abs(one.travel - end) > 1e-6 * span for end in singular) for one in way.moved]
     for name, (colour, dashes) in zip([one for one in values if one in most], CURVES, strict=False):
-        axes.plot(
-            x,
-            np.where(shown, factor * np.array(values[name]), np.nan),
-            color=colour,
-            ls=dashes,
-            lw=1.2,
-            label=name,
-        )
+        y = np.where(shown, factor * np.array(values[name]), np.nan)
+        axes.plot(x, y, color=colour, ls=dashes, lw=1.2, label=as_words(name))
     low = factor * min((min(inner[name]) for name in most), default=0.0)
     high = factor * max((max(inner[name]) for name in most), default=1.0)
     room = 0.06 * (high - low) or 0.1
@@ -150,12 +139,8 @@ def _bounded(way: DriveWay, values: Sequence[float]) -> list[float]:
     """Values without those next to a dead centre."""
     near = 0.03 * (way.ends[1] - way.ends[0])
     ends = [one.travel for one in way.points if one.what != "turns back"]
-    kept = [
-        value
-        for one, value in zip(way.moved, values, strict=True)
-        if all(abs(one.travel - end) > near for end in ends)
-    ]
-    return kept or [0.0]
+    pairs = zip(way.moved, values, strict=True)
+    return [value for one, value in pairs if all(abs(one.travel - end) > near for end in ends)] or [0.0]
 
 
 def _angles(axes: Axes, way: DriveWay, curves: Mapping[str, Series]) -> None:
@@ -166,7 +151,7 @@ def _angles(axes: Axes, way: DriveWay, curves: Mapping[str, Series]) -> None:
     edge = math.degrees(LEAST)
     for low in (0.0, 180.0 - edge):
         axes.axhspan(low, low + edge, color=GREY, alpha=0.18, lw=0)
-    axes.set(ylim=(0.0, 180.0), yticks=range(0, 181, 30), ylabel="angle [degrees]")
+    axes.set(ylim=(0.0, 180.0), yticks=range(0, 181, 30), ylabel="angle [deg]")
     axes.set_title("transmission angle")
     axes.legend(loc="upper left", fontsize=7).set_in_layout(False)
     _abscissa(axes, way)

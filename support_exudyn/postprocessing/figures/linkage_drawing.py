@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -14,12 +15,13 @@ from matplotlib.patheffects import withStroke
 from scipy.spatial import ConvexHull, QhullError
 
 from support_exudyn.machines.slider_crank import SliderCrank
-from support_exudyn.mechanics.kinetics import Kinetics, kinetics_of
+from support_exudyn.mechanics.kinetics import kinetics_of
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.linkage import GROUND, Linkage
 from support_exudyn.model.loads.load import ActingLoad, Load, LoadedPoint
 from support_exudyn.model.loads.springs import SpringDamper
 from support_exudyn.postprocessing.figures import style
+from support_exudyn.postprocessing.figures.selection import as_words, machine_name
 from support_exudyn.postprocessing.figures.style import CURVES, Dashes
 from support_exudyn.postprocessing.look.poses import named_ends
 from support_exudyn.scenario.scenario import Scenario
@@ -58,7 +60,7 @@ def machine_drawing(scenario: Scenario, marked: Sequence[str] | None = None) -> 
             raise InputError(f"marked = {short(name)}: no such pin; allowed: {', '.join(linkage.pins)}")
     start = np.zeros(3 * len(linkage.bodies))
     with style.look():
-        drawing = style.begin(150, 105, f"{type(scenario.machine).__name__}, start posture{note}")
+        drawing = style.begin(150, 105, f"{machine_name(scenario)}, start posture{note}")
         shown = LinkageDrawing(drawing.subplots(), linkage, {}, [start])
         shown.posture(start)
         shown.names(start)
@@ -89,10 +91,9 @@ class LinkageDrawing:
         reached: Sequence[Series],
     ) -> None:
         self.axes, self.linkage, self.blocks, self.reached = axes, linkage, blocks, reached
-        self.kinetics: Kinetics = kinetics_of(linkage)
-        self.joints = joined_points(linkage)
-        everything = [self.at(reached[0], body, one) for body, points in self.joints.items() for one in points]
-        self.size = max(float(np.ptp(np.array(everything), axis=0).max()), 1e-6)  # [mm]
+        self._kinetics, self._joints = kinetics_of(linkage), joined_points(linkage)
+        everything = [self.at(reached[0], body, one) for body, points in self._joints.items() for one in points]
+        self._size = max(float(np.ptp(np.array(everything), axis=0).max()), 1e-6)  # [mm]
         axes.set(xlabel="x [mm]", ylabel="y [mm]")
         axes.set_aspect("equal", adjustable="datalim")
         axes.margins(0.08)
@@ -100,56 +101,142 @@ class LinkageDrawing:
 
     def at(self, position: Series, body: str, point: Vector2) -> Series:
         """The place of a point of a body in a posture (2,) [mm]."""
-        place: Series = 1e3 * self.kinetics.point(position, body, point)[0]
+        place: Series = 1e3 * self._kinetics.point(position, body, point)[0]
         return place
+
+    def _line(self, places: Sequence[Series] | Series, **look: Any) -> None:
+        """A line through places [mm]."""
+        x, y = np.transpose(places)
+        self.axes.plot(x, y, **look)
+
+    def _write(self, text: str, place: Series, offset: tuple[float, float], **look: Any) -> None:
+        """A text next to a place [mm], offset in points."""
+        at = float(place[0]), float(place[1])
+        self.axes.annotate(text, at, xytext=offset, textcoords="offset points", **look)
 
     def paths(self, positions: Sequence[Series], colour: str) -> None:
         """The paths of the traced points through postures, each with its name."""
         for name, traced in self.linkage.points.items():
             path = np.array([self.at(position, traced.body, traced.point) for position in positions])
-            if np.ptp(path, axis=0).max() > self.size * 1e-6:
-                self.axes.plot(path[:, 0], path[:, 1], color=colour, lw=0.9, ls="-", zorder=2)
-                self.axes.annotate(
-                    name, path[len(path) // 3], xytext=(3, 3), textcoords="offset points", fontsize=7,
-                    color=colour,
-                )  # fmt: skip
+            if np.ptp(path, axis=0).max() > self._size * 1e-6:
+                self._line(path, color=colour, lw=0.9, ls="-", zorder=2)
+                self._write(as_words(name), path[len(path) // 3], (3, 3), fontsize=7, color=colour)
+
+    # --- a posture ---
 
     def posture(
         self, position: Series, colour: str = START, dashes: Dashes = "-", *, strong: bool = True
     ) -> None:
-        """All bodies in a posture: plates or lines between their joints, blocks, actuators, pivots."""
-        drawn = _Posture(self, position, colour, dashes, strong)
-        drawn.guides()
-        drawn.bodies()
-        drawn.actuators()
+        """All bodies in a posture, strong or pale: plates or lines, blocks, actuators, pivots."""
+        pale: dict[str, Any] = {"color": colour, "alpha": 1.0 if strong else 0.55}
+        layer = 4.0 if strong else 2.5
+        for name in self.linkage.slides:
+            self._guide(name, position, colour, strong)
+        for body, points in self._joints.items():
+            if body != GROUND:
+                corners = _hull(np.array([self.at(position, body, point) for point in dict.fromkeys(points)]))
+                if len(corners) > 2:
+                    fill = {"fc": colour, "alpha": 0.12 if strong else 0.04}
+                    self.axes.add_patch(Polygon(corners, closed=True, lw=0, zorder=layer - 1, **fill))
+                    corners = np.vstack([corners, corners[:1]])
+                mark = {"marker": "x", "ms": 5} if len(corners) == 1 else {}  # joined to nothing
+                self._line(corners, ls=dashes, lw=1.8 if strong else 0.9, zorder=layer, **pale, **mark)
+        for one in self.linkage.actuators.values():  # a thick cylinder and a thin rod
+            foot, head = (
+                self.at(position, one.foot, one.foot_point),
+                self.at(position, one.head, one.head_point),
+            )
+            middle = foot + 0.55 * (head - foot)
+            for part, width in (((foot, middle), 3.6), ((middle, head), 1.4)):
+                thick = width if strong else 0.6 * width
+                self._line(part, lw=thick, solid_capstyle="butt", zorder=layer, **pale)
         if strong:
-            drawn.pivots()
+            self._pivots(position, colour)
 
-    # --- words ---
+    def _pivots(self, position: Series, colour: str) -> None:
+        """Pins, ends of actuators, and triangles on hatched lines where the ground carries something."""
+        linkage, size = self.linkage, SUPPORT * self._size
+        ends = [(pin.second, pin.second_point) for pin in linkage.pins.values()]
+        for one in linkage.actuators.values():
+            ends += [(one.foot, one.foot_point), (one.head, one.head_point)]
+        ends += [(slide.body, slide.point) for slide in linkage.slides.values() if slide.turns]
+        places = [self.at(position, *end) for end in ends]
+        self._line(
+            np.reshape(places, (-1, 2)),
+            marker="o",
+            ms=4.5,
+            mfc="white",
+            mec=colour,
+            mew=1.0,
+            ls="none",
+            zorder=6,
+        )
+        for x, y in {tuple(self.at(position, GROUND, one).tolist()) for one in self._joints[GROUND]}:
+            foot = y - 1.3 * size
+            grey: dict[str, Any] = {"color": GREY, "zorder": 3}
+            corners = [(x, y), (x - 0.8 * size, foot), (x + 0.8 * size, foot)]
+            self.axes.add_patch(Polygon(corners, closed=True, fc="white", ec=GREY, lw=0.9, zorder=3))
+            self.axes.plot((x - 1.2 * size, x + 1.2 * size), (foot, foot), lw=0.9, **grey)
+            starts = x + size * np.linspace(-0.9, 1.2, 5)
+            self.axes.plot([starts, starts - 0.4 * size], [[foot] * 5, [foot - 0.4 * size] * 5], lw=0.6, **grey)
+
+    def _guide(self, name: str, position: Series, colour: str, strong: bool) -> None:
+        """The line of a guide, as far as it is used, and the block that slides along it."""
+        slide, along = self.linkage.slides[name], self._direction(name, position)
+        across = np.array([-along[1], along[0]])
+        unknown = 2e-3 * BLOCK[0] * self._size, 2e-3 * BLOCK[1] * self._size
+        length, height = (0.5e3 * side for side in self.blocks.get(name, unknown))
+        if strong:
+            origin, used = self.at(position, slide.against, slide.point), list(self._used(name))
+            low, high = min(used) - 2.0 * length, max(used) + 2.0 * length
+            off = 0.5 * height if slide.turns else height
+            for side in (-off, off):
+                ends = [origin + s * along + side * across for s in (low, high)]
+                self._line(ends, color=GREY, lw=0.9, zorder=1.5)
+        if not slide.turns:
+            place = self.at(position, slide.body, slide.point)
+            signs = (-1, -1), (1, -1), (1, 1), (-1, 1)
+            corners = [place + s * length * along + t * height * across for s, t in signs]
+            look: dict[str, Any] = {"fc": "white", "lw": 1.4, "alpha": 1.0, "zorder": 3.8}
+            if not strong:
+                look = {"fc": "none", "lw": 0.7, "alpha": 0.55, "zorder": 2.4}
+            self.axes.add_patch(Polygon(corners, closed=True, ec=colour, **look))
+
+    def _direction(self, name: str, position: Series) -> Series:
+        """Unit vector along a guide in a posture (2,)."""
+        slide = self.linkage.slides[name]
+        turn = 0.0 if slide.against == GROUND else position[self._kinetics.first(slide.against) + 2]
+        return np.array([math.cos(slide.direction + turn), math.sin(slide.direction + turn)])
+
+    def _used(self, name: str) -> Iterator[float]:
+        """Where along its guide something stands in all postures, from its place at the start [mm]."""
+        slide = self.linkage.slides[name]
+        for position in self.reached:
+            ends = (self.at(position, body, slide.point) for body in (slide.body, slide.against))
+            yield float(np.subtract(*ends) @ self._direction(name, position))
+
+    # --- names ---
 
     def pin_names(self, position: Series) -> None:
         """The names of pins at their places; of several pins at one place together."""
         together: dict[tuple[int, int], list[str]] = {}
-        places = {
-            name: self.at(position, pin.second, pin.second_point) for name, pin in self.linkage.pins.items()
-        }
-        for name, (x, y) in places.items():
-            near = round(x / (0.02 * self.size)), round(y / (0.02 * self.size))
-            together.setdefault(near, []).append(name)
-        for names in together.values():
-            self.axes.annotate(
-                ", ".join(names), tuple(places[names[0]].tolist()), xytext=(4, 5), textcoords="offset points",
-                fontsize=7.5, zorder=7, path_effects=HALO,
-            )  # fmt: skip
+        places: dict[tuple[int, int], Series] = {}
+        for name, pin in self.linkage.pins.items():
+            place = self.at(position, pin.second, pin.second_point)
+            near = round(place[0] / (0.02 * self._size)), round(place[1] / (0.02 * self._size))
+            together.setdefault(near, []).append(as_words(name))
+            places.setdefault(near, place)
+        for near, names in together.items():
+            self._write(", ".join(names), places[near], (4, 5), fontsize=7.5, zorder=7, path_effects=HALO)
 
     def names(self, position: Series) -> None:
         """The names of bodies on them, and of actuators along them."""
         blocks = {one.body for one in self.linkage.slides.values() if not one.turns}
-        for name, points in self.joints.items():
+        for name, points in self._joints.items():
             corners = np.array([self.at(position, name, one) for one in dict.fromkeys(points)])
             if name in blocks:
                 self._word(corners[:1], name)
-            elif name != GROUND and (len(corners) == 1 or np.ptp(corners, axis=0).max() > SMALL * self.size):
+            elif name != GROUND and (len(corners) == 1 or np.ptp(corners, axis=0).max() > SMALL * self._size):
                 self._word(_hull(corners), name)
         for name, one in self.linkage.actuators.items():
             ends = ((one.foot, one.foot_point), (one.head, one.head_point))
@@ -157,14 +244,13 @@ class LinkageDrawing:
 
     def mark(self, position: Series, name: str, colour: str, more: str) -> None:
         """A ring around a pin, whose name and more words stand in the legend."""
-        pin = self.linkage.pins[name]
-        x, y = self.at(position, pin.second, pin.second_point)
-        words = name.replace("_", " ")
+        pin, words = self.linkage.pins[name], as_words(name)
         label = f"{words if words.endswith('pin') else f'{words} pin'}{more}"
-        self.axes.plot(x, y, "o", ms=12, mfc="none", mec=colour, mew=2.0, ls="none", zorder=8, label=label)
+        look: dict[str, Any] = {"ms": 12, "mfc": "none", "mec": colour, "mew": 2.0, "ls": "none", "zorder": 8}
+        self._line([self.at(position, pin.second, pin.second_point)], marker="o", label=label, **look)
 
     def _word(self, corners: Series, name: str) -> None:
-        """The name of a body: on a plate, beside a bar, below a block."""
+        """The name of a body: on a plate, next to a bar, below a block."""
         place, aside = corners.mean(axis=0), np.zeros(2)
         if len(corners) == 1:
             aside = np.array([-1.2 * BESIDE, 1.6 * BESIDE])
@@ -173,13 +259,9 @@ class LinkageDrawing:
             place = corners[0] + ALONG * along
             aside = BESIDE * np.array([along[1], -along[0]]) / np.hypot(*along)
         side = "center" if abs(aside[0]) < 0.5 * BESIDE else ("left" if aside[0] > 0.0 else "right")
-        self.axes.annotate(
-            name, (float(place[0]), float(place[1])), xytext=(float(aside[0]), float(aside[1])),
-            textcoords="offset points", fontsize=7,
-            style="italic", ha=side, va="center", color="#333333", zorder=5.5, path_effects=HALO,
-        )  # fmt: skip
-
-    # --- loads ---
+        look: dict[str, Any] = {"fontsize": 7, "style": "italic", "color": "#333333", "path_effects": HALO}
+        offset = float(aside[0]), float(aside[1])
+        self._write(as_words(name), place, offset, ha=side, va="center", zorder=5.5, **look)
 
     def load(self, name: str, load: ActingLoad) -> None:
         """A spring as a zigzag between its ends, another force as an arrow at its point, start posture."""
@@ -190,126 +272,19 @@ class LinkageDrawing:
         if isinstance(load, SpringDamper):
             start = self.at(still, load.against(name), load.origin)
             along = (end - start) / np.hypot(*(end - start))
-            share = np.concatenate([[0.0, 0.2], np.linspace(0.2, 0.8, 2 * COILS + 1)[1:-1], [0.8, 1.0]])
-            aside = np.concatenate([[0.0, 0.0], np.tile([1.0, -1.0], COILS)[: 2 * COILS - 1], [0.0, 0.0]])
-            across = COIL * self.size * np.outer((-along[1], along[0]), aside)
-            x, y = start[:, None] + np.outer(end - start, share) + across
-            self.axes.plot(x, y, color=LOAD, lw=1.0, zorder=4.5)
+            share = np.concatenate([[0.0], np.linspace(0.2, 0.8, 2 * COILS + 1), [1.0]])
+            aside = np.concatenate([[0.0, 0.0], np.tile([1.0, -1.0], COILS)[:-1], [0.0, 0.0]])
+            across = COIL * self._size * np.outer(aside, (-along[1], along[0]))
+            self._line(start + np.outer(share, end - start) + across, color=LOAD, lw=1.0, zorder=4.5)
             self._word(np.array([start, end]), name)
             return
         complete = LoadedPoint(max(load.breaks, default=0.0), 0.0, 0.0, 0.0, 0.0)
         force = np.array(load.numbers(complete)[:2])
         if np.hypot(*force) > 0.0:
-            tail = end - ARROW * self.size * force / np.hypot(*force)
+            tail = end - ARROW * self._size * force / np.hypot(*force)
             arrow = {"arrowstyle": "-|>", "color": LOAD, "lw": 1.4, "shrinkA": 0, "shrinkB": 0}
             self.axes.annotate("", tuple(end.tolist()), tuple(tail.tolist()), arrowprops=arrow)
             self._word(np.array([tail, end]), name)
-
-
-@dataclass(frozen=True)
-class _Posture:
-    """A posture of a drawing: strong, or pale besides another; position: coordinates (3 bodies,)."""
-
-    drawing: LinkageDrawing
-    position: Series
-    colour: str
-    dashes: Dashes
-    strong: bool
-
-    def at(self, body: str, point: Vector2) -> Series:
-        return self.drawing.at(self.position, body, point)
-
-    def bodies(self) -> None:
-        axes, colour, strong = self.drawing.axes, self.colour, self.strong
-        layer, alpha = (4.0, 1.0) if strong else (2.5, 0.55)
-        for body, points in self.drawing.joints.items():
-            if body == GROUND:
-                continue
-            corners = _hull(np.array([self.at(body, point) for point in dict.fromkeys(points)]))
-            if len(corners) > 2:
-                fill = 0.12 if strong else 0.04
-                axes.add_patch(Polygon(corners, closed=True, fc=colour, alpha=fill, lw=0, zorder=layer - 1))
-                corners = np.vstack([corners, corners[:1]])
-            if len(corners) == 1:  # nothing is joined to it but at its centre, if at all
-                axes.plot(*corners[0], "x", ms=5, color=colour, alpha=alpha, zorder=layer)
-            axes.plot(
-                corners[:, 0], corners[:, 1], color=colour, ls=self.dashes, lw=1.8 if strong else 0.9,
-                alpha=alpha, zorder=layer,
-            )  # fmt: skip
-
-    def actuators(self) -> None:
-        """Each with a thick cylinder and a thin rod."""
-        layer, alpha, width = (4.0, 1.0, 1.0) if self.strong else (2.5, 0.55, 0.6)
-        for one in self.drawing.linkage.actuators.values():
-            foot, head = self.at(one.foot, one.foot_point), self.at(one.head, one.head_point)
-            middle = foot + 0.55 * (head - foot)
-            for ends, lw in (((foot, middle), 3.6), ((middle, head), 1.4)):
-                x, y = np.transpose(ends)
-                self.drawing.axes.plot(
-                    x, y, color=self.colour, lw=lw * width, alpha=alpha, solid_capstyle="butt", zorder=layer
-                )
-
-    def pivots(self) -> None:
-        """Pins, ends of actuators, and triangles on hatched lines where the ground carries something."""
-        axes, linkage, colour = self.drawing.axes, self.drawing.linkage, self.colour
-        pins = [self.at(pin.second, pin.second_point) for pin in linkage.pins.values()]
-        for one in linkage.actuators.values():
-            pins += [self.at(one.foot, one.foot_point), self.at(one.head, one.head_point)]
-        for x, y in pins:
-            axes.plot(x, y, "o", ms=4.5, mfc="white", mec=colour, mew=1.0, zorder=6)
-        for slide in linkage.slides.values():
-            if slide.turns:
-                x, y = self.at(slide.body, slide.point)
-                axes.plot(x, y, "o", ms=5.5, mfc="white", mec=colour, mew=1.2, zorder=6)
-        size = SUPPORT * self.drawing.size
-        for x, y in dict.fromkeys(tuple(self.at(GROUND, one).tolist()) for one in self.drawing.joints[GROUND]):
-            foot = y - 1.3 * size
-            corners = [(x, y), (x - 0.8 * size, foot), (x + 0.8 * size, foot)]
-            axes.add_patch(Polygon(corners, closed=True, fc="white", ec=GREY, lw=0.9, zorder=3))
-            axes.plot((x - 1.2 * size, x + 1.2 * size), (foot, foot), color=GREY, lw=0.9, zorder=3)
-            for start in x + size * np.linspace(-0.9, 1.2, 5):
-                low = foot - 0.4 * size
-                axes.plot((start, start - 0.4 * size), (foot, low), color=GREY, lw=0.6, zorder=3)
-
-    def guides(self) -> None:
-        """The line of each guide, as far as it is used, and what slides along it."""
-        drawing, strong = self.drawing, self.strong
-        for name, slide in drawing.linkage.slides.items():
-            along = self._direction(name, self.position)
-            across = np.array([-along[1], along[0]])
-            sides = drawing.blocks.get(name, (2e-3 * BLOCK[0] * drawing.size, 2e-3 * BLOCK[1] * drawing.size))
-            length, height = (0.5e3 * side for side in sides)
-            if strong:
-                origin, used = self.at(slide.against, slide.point), list(self._used(name))
-                low, high = min(used) - 2.0 * length, max(used) + 2.0 * length
-                for side in (-height, height) if not slide.turns else (-0.5 * height, 0.5 * height):
-                    ends = [origin + s * along + side * across for s in (low, high)]
-                    drawing.axes.plot(*np.transpose(ends), color=GREY, lw=0.9, zorder=1.5)
-            if slide.turns:
-                continue
-            place = self.at(slide.body, slide.point)
-            signs = (-1, -1), (1, -1), (1, 1), (-1, 1)
-            corners = [place + s * length * along + t * height * across for s, t in signs]
-            drawing.axes.add_patch(
-                Polygon(
-                    corners, closed=True, fc="white" if strong else "none", ec=self.colour,
-                    lw=1.4 if strong else 0.7, alpha=1.0 if strong else 0.55, zorder=3.8 if strong else 2.4,
-                )
-            )  # fmt: skip
-
-    def _direction(self, name: str, position: Series) -> Series:
-        """Unit vector along a guide in a posture (2,)."""
-        slide = self.drawing.linkage.slides[name]
-        first = None if slide.against == GROUND else self.drawing.kinetics.first(slide.against) + 2
-        angle = slide.direction + (0.0 if first is None else position[first])
-        return np.array([math.cos(angle), math.sin(angle)])
-
-    def _used(self, name: str) -> Iterator[float]:
-        """Where along its guide something stands in all postures, from its place at the start [mm]."""
-        slide = self.drawing.linkage.slides[name]
-        for position in self.drawing.reached:
-            ends = (self.drawing.at(position, body, slide.point) for body in (slide.body, slide.against))
-            yield float(np.subtract(*ends) @ self._direction(name, position))
 
 
 def joined_points(linkage: Linkage) -> dict[str, list[Vector2]]:

@@ -51,6 +51,11 @@ def as_words(name: str) -> str:
     return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", " ", name).lower().replace("_", " ") if name else ""
 
 
+def in_line(text: str) -> str:
+    """A text in one line."""
+    return " ".join(text.split())
+
+
 def machine_name(scenario: Scenario) -> str:
     """The kind of a scenario's machine in words, such as "hydraulic support"."""
     return as_words(type(scenario.machine).__name__)

@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 from support_exudyn.machines.strength.results import StandReport
 from support_exudyn.machines.strength.roof_forces import RoofForce
 from support_exudyn.postprocessing.figures import style
+from support_exudyn.postprocessing.figures.selection import as_words
 
 BAR = 0.27  # width of a bar, of the distance of two groups
 LABELS = {
@@ -29,22 +30,17 @@ def stand_figure(report: StandReport) -> Figure:
     return drawing
 
 
-def _heights(report: StandReport) -> list[float]:
-    return [1e3 * one.contact.height for one in report.forces]
-
-
 def _curve(roofs: list[RoofForce | None]) -> list[float]:
     return [np.nan if roof is None else 1e-3 * roof.force for roof in roofs]
 
 
 def _over_height(axes: Axes, report: StandReport) -> None:
-    forces, heights = report.forces, _heights(report)
+    forces, heights = report.forces, [1e3 * one.contact.height for one in report.forces]
     curves = {"yield, smooth roof": [one.yielding for one in forces]}
     curves |= {f"yield, rough {mu:+g}": [one.rubbed[mu] for one in forces] for mu in forces[0].rubbed}
     curves["setting"] = [one.setting for one in forces]
-    for (label, roofs), (colour, dashes) in zip(
-        curves.items(), (("#000000", "-"), *style.CURVES[:2], style.CURVES[2]), strict=False
-    ):
+    looks = ((style.IDEAL, "-"), *style.CURVES)
+    for (label, roofs), (colour, dashes) in zip(curves.items(), looks, strict=False):
         if any(roof is not None for roof in roofs):
             axes.plot(heights, _curve(roofs), color=colour, ls=dashes, label=label)
     axes.axhline(1e-3 * report.rated, color="#777777", lw=0.7)
@@ -66,11 +62,8 @@ def _place(axes: Axes, report: StandReport) -> None:
         axes.plot(*zip(*found, strict=True), color=style.IDEAL)
     length = 1e3 * (report.forces[0].contact.front - report.forces[0].contact.rear)
     axes.set_ylim(0.0, length)
-    axes.set(
-        title="its place on the canopy",
-        xlabel="height of the roof [mm]",
-        ylabel="place, from the rear end [mm]",
-    )
+    axes.set(title="its place on the canopy", xlabel="height of the roof [mm]")
+    axes.set_ylabel("place, from the rear end [mm]")
 
 
 def _over_canopy(axes: Axes, report: StandReport) -> None:
@@ -82,11 +75,8 @@ def _over_canopy(axes: Axes, report: StandReport) -> None:
         label = f"roof at {1e3 * one.contact.height:.0f} mm"
         axes.plot(x, [1e-3 * roof.force for roof in places], color=colour, ls=dashes, label=label)
     axes.set_ylim(bottom=0.0)
-    axes.set(
-        title="opens no valve, lifts no leg",
-        xlabel="place on the canopy, from the rear end [mm]",
-        ylabel="largest roof force [kN]",
-    )
+    axes.set(title="opens no valve, lifts no leg", ylabel="largest roof force [kN]")
+    axes.set_xlabel("place on the canopy, from the rear end [mm]")
     axes.legend(fontsize=7)
 
 
@@ -96,7 +86,7 @@ def _pins(axes: Axes, report: StandReport) -> None:
     for k, (field, (colour, _)) in enumerate(zip(LABELS, style.CURVES, strict=False)):
         loads = [1e-3 * max(getattr(report.pins[name], field).values()) for name in names]
         axes.barh(rows + (k - 1) * BAR, loads, BAR, color=colour, label=LABELS[field])
-    axes.set_yticks(rows, names)
+    axes.set_yticks(rows, [as_words(name) for name in names])
     axes.set_ylim(len(names) + 0.9, -0.6)  # with room for the legend
     axes.grid(visible=False, axis="y")
     axes.set_axisbelow(True)

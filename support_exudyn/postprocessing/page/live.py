@@ -24,6 +24,7 @@ from pydantic import ConfigDict, TypeAdapter, ValidationError
 
 from support_exudyn.files.whole_file import contents, whole_file
 from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.postprocessing.figures.selection import in_line
 from user_forces.values.value import InputError
 
 LARGEST_FILE = 50_000_000  # bytes
@@ -204,8 +205,3 @@ def _first(chosen: npt.NDArray[np.bool_], edges: npt.NDArray[np.intp]) -> npt.ND
 
 def _rounded(value: float) -> float:
     return float(f"{value:.{DIGITS}g}")
-
-
-def in_line(label: str) -> str:
-    """A label in one line."""
-    return " ".join(label.split())

@@ -131,21 +131,12 @@ def _draw(plot: Plot, panel: LivePanel, x_label: str, drawn: dict[str, list[Glyp
         plot.add_tools(hover)
     for one in panel.curves:
         source, column, colour, name = sources[one.x], f"y{groups[one.x].index(one)}", one.colour, one.label
+        look: dict[str, Any] = {"source": source, "color": colour, "name": name}
         renderer: GlyphRenderer[Any]
         if one.dash == "points":
-            renderer = plot.scatter(
-                "x", column, source=source, color=colour, name=name, size=6, marker="x", line_width=1.5
-            )
+            renderer = plot.scatter("x", column, size=6, marker="x", line_width=1.5, **look)
         else:
-            renderer = plot.line(
-                "x",
-                column,
-                source=source,
-                color=colour,
-                name=name,
-                line_dash=one.dash,
-                line_width=THICKER * one.width,
-            )
+            renderer = plot.line("x", column, line_dash=one.dash, line_width=THICKER * one.width, **look)
         drawn.setdefault(one.label, []).append(renderer)
 
 
