@@ -1,4 +1,4 @@
-"""Exudyn's own solution file of a run: the engine's, of every formulation, whole or not at all."""
+"""Exudyn's own solution file of a run, and its model with the look of the machine, of every formulation."""
 
 from __future__ import annotations
 
@@ -10,6 +10,9 @@ import exudyn
 import numpy as np
 import pytest
 from exudyn.utilities import LoadSolutionFile, SetSolutionState
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
 
 from support_exudyn import (
     CubicStep,
@@ -24,7 +27,8 @@ from support_exudyn.__main__ import main
 from support_exudyn.files import save_scenario
 from support_exudyn.formulations.exudyn.scene.scene_builder import build
 from support_exudyn.formulations.exudyn.solver import solver
-from support_exudyn.postprocessing.export.solution_file import read_solution, rows
+from support_exudyn.mechanics.body_motion import rotation
+from support_exudyn.postprocessing.export.solution_file import euler_parameters, read_solution, rows
 from support_exudyn.postprocessing.look.poses import Poses
 from support_exudyn.postprocessing.viewer.viewer_model import POSITION, SHOWN, model_for_viewer
 from tests.cases.run_cases import loose_slider_crank, loose_support, support
@@ -187,3 +191,18 @@ def test_surfaces_and_columns_are_where_the_run_was(name: str) -> None:
                 assert end(points, axis=0) == pytest.approx(end(where, axis=0), abs=1e-12)
     finally:
         shown.scene.release()
+
+
+small = st.floats(-1.0, 1.0)
+
+
+# rounding: a few units of the last place of numbers about 1
+@given(st.lists(st.tuples(small, small, small), min_size=1, max_size=9))
+def test_euler_parameters_are_of_the_rotation_and_do_not_jump(
+    vectors: list[tuple[float, float, float]],
+) -> None:
+    turns = Rotation.from_rotvec(np.cumsum(vectors, axis=0)).as_matrix()  # several turns in all
+    found = euler_parameters(turns)
+    assert rotation(found) == pytest.approx(turns, abs=1e-14)
+    assert found[0, 0] >= 0.0
+    assert np.all(np.sum(found[1:] * found[:-1], axis=1) >= -1e-14)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -26,7 +27,8 @@ CAPTION = (
     "centre or change point; grey dots: a part on the ground turns back."
 )
 POOR = f" Grey: poor transmission, nearer than {math.degrees(LEAST):.0f} degrees to a straight line."
-WORDS = 18  # letters of a line of a legend
+LETTERS = 34  # of a line of a legend
+KEY: dict[str, Any] = {"fontsize": 7, "columnspacing": 1.0, "handlelength": 2.2, "borderaxespad": 0.0}
 MANY = 5  # curves of a panel
 
 
@@ -38,7 +40,7 @@ def check_figure(report: CheckReport) -> Figure:
     """
     ways = report.ways[:PANELS]
     rows = 0 if not ways else 1 if len(ways) < 3 else 2
-    drawing = style.begin(180, 105 + 62 * rows, report.name or report.kind)
+    drawing = style.begin(180, 105 + 70 * rows, report.name or report.kind)
     grid = drawing.add_gridspec(1 + rows, 6, height_ratios=[1.7] + [1.0] * rows)
     _linkage(drawing.add_subplot(grid[0, :]), report)
     if len(ways) == 1:
@@ -125,12 +127,9 @@ def _curves(
     low = factor * min((min(inner[name]) for name in most), default=0.0)
     high = factor * max((max(inner[name]) for name in most), default=1.0)
     room = 0.06 * (high - low) or 0.1
-    columns = next((n for n in (3, 2) if n * max(map(len, most), default=0) < WORDS), 1)
-    lines = -(-len(most) // columns)
-    axes.set_ylim(min(0.0, low) - room, max(0.0, high) + room + (0.1 + 0.12 * lines) * (high - min(0.0, low)))
+    axes.set_ylim(min(0.0, low) - room, max(0.0, high) + room)
     if most:
-        legend = axes.legend(loc="upper left", ncols=columns, fontsize=7, columnspacing=1.0, handlelength=2.2)
-        legend.set_in_layout(False)
+        _legend(axes, max(map(len, most)))
     axes.set(title=title, ylabel=f"{what} [{unit}]")
     _abscissa(axes, way)
 
@@ -153,8 +152,14 @@ def _angles(axes: Axes, way: DriveWay, curves: Mapping[str, Series]) -> None:
         axes.axhspan(low, low + edge, color=GREY, alpha=0.18, lw=0)
     axes.set(ylim=(0.0, 180.0), yticks=range(0, 181, 30), ylabel="angle [deg]")
     axes.set_title("transmission angle")
-    axes.legend(loc="upper left", fontsize=7).set_in_layout(False)
+    _legend(axes, max(map(len, curves)))
     _abscissa(axes, way)
+
+
+def _legend(axes: Axes, letters: int) -> None:
+    """The names of curves below a panel, in as many columns as names of so many letters leave room for."""
+    columns = next((n for n in (3, 2) if n * letters < LETTERS), 1)
+    axes.legend(loc="upper left", bbox_to_anchor=(0.0, -0.36), ncols=columns, **KEY)
 
 
 def _abscissa(axes: Axes, way: DriveWay) -> None:

@@ -50,7 +50,7 @@ def orbit(result: Result, pin: str | None = None, after: float = 0.0, until: flo
     _draw_depth(depth, shown, over_time)
     depth.set_title("b) depth; negative: gap")
     _draw_speeds(speeds, shown, over_time)
-    speeds.set_title("c) speeds of impact and separation")
+    speeds.set_title("c) speeds")
     below.axis("off")
     handles, labels = place.get_legend_handles_labels()
     below.legend(handles, labels, loc="center left", ncols=len(labels), fontsize=7, borderaxespad=0.0)

@@ -48,7 +48,8 @@ def matching(names: Collection[str], patterns: Sequence[str], kind: str = "chann
 
 def as_words(name: str) -> str:
     """A name of a file or of a class as words: "rear_base" as "rear base", "HydraulicSupport" likewise."""
-    return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", " ", name).lower().replace("_", " ") if name else ""
+    words = re.sub(r"(?<=[a-z0-9])(?=[A-Z])|_", " ", name).split()
+    return " ".join(word.lower() if word[1:].islower() else word for word in words)
 
 
 def in_line(text: str) -> str:

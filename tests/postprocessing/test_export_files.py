@@ -1,20 +1,63 @@
-"""All channels as CSV and HDF5, and the command that exports."""
+"""Which records an export writes, all channels as CSV and HDF5, and files all or none."""
 
 from __future__ import annotations
 
 import csv
 import dataclasses
 import json
+import math
 from pathlib import Path
 
 import h5py
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from support_exudyn.__main__ import main
+from support_exudyn.postprocessing.export.sampling import Sampling
 from support_exudyn.postprocessing.export.tables import to_csv, to_hdf5
+from support_exudyn.postprocessing.export.whole_set import whole_set
 from tests.cases.export_cases import by_vtk, run
-from user_forces import Value
+from user_forces import InputError, Value
+
+TIME = np.arange(101) * 0.01  # 100 records a second
+
+
+def test_one_in_so_many_from_the_first_that_lies_inside() -> None:
+    assert Sampling(every=40).records(TIME) == [0, 40, 80]
+    assert Sampling(every=40, after=0.095).records(TIME) == [10, 50, 90]
+
+
+times = st.lists(st.floats(0.0, 10.0, width=32), min_size=1, max_size=50, unique=True).map(sorted)
+
+
+@given(times, st.floats(0.01, 100.0))
+def test_no_record_lies_nearer_to_a_frame_than_the_one_that_is_written(times: list[float], rate: float) -> None:
+    time = np.array(times)
+    records = Sampling(frames_per_second=rate).records(time)
+    assert records == sorted(set(records))
+    for frame in np.arange(time[0], time[-1], 1.0 / rate):
+        # the grids of this test and of the program differ by rounding of sums: 1000 steps of 1e-15
+        assert np.abs(time[records] - frame).min() <= np.abs(time - frame).min() + 1e-11
+
+
+@pytest.mark.parametrize(
+    ("fields", "said"),
+    [
+        ({"every": 0}, "every"),
+        ({"every": 1.5}, "whole number"),
+        ({"frames_per_second": 0.0}, "frames_per_second"),
+        ({"frames_per_second": math.nan}, "frames_per_second"),
+        ({"every": 2, "frames_per_second": 25.0}, "one of them"),
+        ({"after": -1.0}, "after"),
+        ({"after": 0.5, "until": 0.4}, "until >= after"),
+    ],
+)
+def test_what_cannot_be_is_refused(fields: dict[str, float], said: str) -> None:
+    with pytest.raises(InputError, match=said):
+        Sampling(**fields)  # type: ignore[arg-type]
+
 
 KINDS = ("plane", "space", "slider-crank", "ideal")
 
@@ -85,3 +128,38 @@ def test_the_command_writes_everything_beside_the_run(saved: Path, capsys: pytes
     assert times == pytest.approx([0.02, 0.06], abs=1e-12)  # rounding of times of records
     with h5py.File(out / "rise_channels.h5", "r") as file:
         assert file["channels/time"].size == 41
+
+
+FILES = ("a.bin", "b.bin", "all.index")
+
+
+def write(folder: Path, text: str, size: int = 1) -> None:
+    with whole_set(folder, FILES) as temporary:
+        for name in FILES:
+            (temporary / name).write_text(text * size, encoding="utf-8")
+
+
+def texts(folder: Path) -> dict[str, str]:
+    return {path.name: path.read_text(encoding="utf-8") for path in folder.iterdir()}
+
+
+def test_all_files_are_there_and_nothing_else(tmp_path: Path) -> None:
+    write(tmp_path / "deep" / "set", "old")
+    write(tmp_path / "deep" / "set", "new")
+    assert texts(tmp_path / "deep" / "set") == dict.fromkeys(FILES, "new")
+
+
+@pytest.mark.parametrize("error", [KeyboardInterrupt, ValueError])
+def test_after_an_interruption_all_is_as_it_was(tmp_path: Path, error: type[BaseException]) -> None:
+    write(tmp_path / "there", "old")
+
+    def broken(folder: Path) -> None:
+        with whole_set(folder, FILES) as temporary:
+            (temporary / FILES[0]).write_text("new", encoding="utf-8")
+            raise error
+
+    for folder in (tmp_path / "there", tmp_path / "missing"):
+        with pytest.raises(error):
+            broken(folder)
+    assert texts(tmp_path / "there") == dict.fromkeys(FILES, "old")
+    assert not (tmp_path / "missing").exists()
