@@ -145,34 +145,25 @@ def _curves(lines: Sequence[Line2D]) -> tuple[LiveCurve, ...]:
 
     Those with the same x stay so: all their values at a place can be read together.
     """
-    data: list[tuple[np.ndarray, ...]] = [
-        tuple(np.ma.filled(np.ma.asarray(one, dtype=float), np.nan) for one in line.get_data(orig=False))
-        for line in lines
-    ]
-    groups: list[list[int]] = []
-    for number, (x, _) in enumerate(data):
-        same = (group for group in groups if np.array_equal(data[group[0]][0], x, equal_nan=True))
-        if (group := next(same, None)) is None:
-            groups.append(group := [])
-        group.append(number)
-    found: dict[int, LiveCurve] = {}
-    for group in groups:
-        x = data[group[0]][0]
+    groups: dict[bytes, list[tuple[Line2D, Series, Series]]] = {}
+    for line in lines:
+        data = (np.ma.asarray(one, dtype=float) for one in line.get_data(orig=False))
+        x, y = (np.ma.filled(one, np.nan) for one in data)
+        groups.setdefault(x.tobytes(), []).append((line, x, y))
+    made: dict[Line2D, LiveCurve] = {}
+    for group in groups.values():
+        x = group[0][1]
         placed = np.flatnonzero(np.isfinite(x))
-        kept = placed[thinned(np.array([data[number][1][placed] for number in group]), MOST_POINTS)]
+        kept = placed[thinned(np.array([y[placed] for *_, y in group]), MOST_POINTS)]
         places = tuple(_rounded(value) for value in x[kept].tolist())
-        for number in group:
-            line, values = lines[number], data[number][1][kept].tolist()
+        for line, _, y in group:
+            values = [_rounded(value) if math.isfinite(value) else None for value in y[kept].tolist()]
             style = str(line.get_linestyle())
-            found[number] = LiveCurve(
-                in_line(str(line.get_label())),
-                places,
-                tuple(_rounded(value) if math.isfinite(value) else None for value in values),
-                to_hex(line.get_color()),
-                "points" if style in ("None", "", " ") else DASHES.get(style, "solid"),
-                round(float(line.get_linewidth()), 2),
-            )
-    return tuple(found[number] for number in range(len(lines)))
+            dash: Dash = "points" if style in ("None", "", " ") else DASHES.get(style, "solid")
+            colour, width = to_hex(line.get_color()), round(float(line.get_linewidth()), 2)
+            label = in_line(str(line.get_label()))
+            made[line] = LiveCurve(label, places, tuple(values), colour, dash, width)
+    return tuple(made[line] for line in lines)
 
 
 def thinned(curves: Series, most: int) -> npt.NDArray[np.intp]:
