@@ -147,8 +147,7 @@ def _curves(lines: Sequence[Line2D]) -> tuple[LiveCurve, ...]:
     """
     groups: dict[bytes, list[tuple[Line2D, Series, Series]]] = {}
     for line in lines:
-        data = (np.ma.asarray(one, dtype=float) for one in line.get_data(orig=False))
-        x, y = (np.ma.filled(one, np.nan) for one in data)
+        x, y = (np.ma.filled(np.ma.asarray(one, float), np.nan) for one in line.get_data(orig=False))
         groups.setdefault(x.tobytes(), []).append((line, x, y))
     made: dict[Line2D, LiveCurve] = {}
     for group in groups.values():
