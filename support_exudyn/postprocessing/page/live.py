@@ -147,7 +147,8 @@ def _curves(lines: Sequence[Line2D]) -> tuple[LiveCurve, ...]:
     """
     groups: dict[bytes, list[tuple[Line2D, Series, Series]]] = {}
     for line in lines:
-        x, y = (np.ma.filled(np.ma.asarray(one, float), np.nan) for one in line.get_data(orig=False))
+        data = [np.ma.asarray(one, float) for one in line.get_data(orig=False)]
+        x, y = (np.asarray(one.filled(np.nan)) for one in data)
         groups.setdefault(x.tobytes(), []).append((line, x, y))
     made: dict[Line2D, LiveCurve] = {}
     for group in groups.values():
