@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from functools import cache
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -147,7 +147,7 @@ def _curves(lines: Sequence[Line2D]) -> tuple[LiveCurve, ...]:
     """
     groups: dict[bytes, list[tuple[Line2D, Series, Series]]] = {}
     for line in lines:
-        data = [np.ma.asarray(one, float) for one in line.get_data(orig=False)]
+        data: list[Any] = [np.ma.asarray(one, float) for one in line.get_data(orig=False)]
         x, y = (np.asarray(one.filled(np.nan)) for one in data)
         groups.setdefault(x.tobytes(), []).append((line, x, y))
     made: dict[Line2D, LiveCurve] = {}
