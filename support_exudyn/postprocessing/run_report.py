@@ -17,7 +17,7 @@ from support_exudyn.model.machine import Machine
 from support_exudyn.postprocessing import joint_tables, summary
 from support_exudyn.postprocessing.figures import overlay, style
 from support_exudyn.postprocessing.figures.linkage_drawing import machine_drawing
-from support_exudyn.postprocessing.figures.selection import matching
+from support_exudyn.postprocessing.figures.selection import machine_name, matching
 from support_exudyn.postprocessing.joint_tables import ResultTable
 from support_exudyn.postprocessing.page.live import LiveFigure, of_drawing
 from support_exudyn.postprocessing.page.live_html import html
@@ -147,7 +147,7 @@ def _machines(runs: Mapping[str, Result]) -> list[ShownFigure]:
         drawn.append(scenario.machine)
         loose = ", ".join(scenario.clearance_pins)
         pins = f"clearance in {loose}" if loose else "all pins ideal"
-        caption = f"{type(scenario.machine).__name__} in the start posture of {name}: {pins}."
+        caption = f"{machine_name(scenario).capitalize()} in the start posture of {name}: {pins}."
         found.append(ShownFigure(_picture(machine_drawing(scenario)), caption, anchor=f"machine{len(drawn)}"))
     return found
 

@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.font_manager import get_font_names
 
 from support_exudyn.files.whole_file import whole_file
 from support_exudyn.mechanics.trajectory import Series
@@ -36,12 +37,22 @@ CURVES: tuple[tuple[str, Dashes], ...] = (
     (IDEAL, (0, (1, 1))),
     (PAPER, (0, (8, 1, 1, 1, 1, 1))),
 )
+# fonts with Chinese letters, as far as they are installed, for names that have some
+CHINESE = (
+    "Noto Sans CJK SC",
+    "Source Han Sans SC",
+    "Microsoft YaHei",
+    "PingFang SC",
+    "SimHei",
+    "WenQuanYi Zen Hei",
+)
+EASTERN = tuple(name for name in CHINESE if name in get_font_names())
 SCREEN_DPI = 110  # of figures in notebooks
 CAPTION = 7  # size of the letters of a caption [points]
 TITLE = 95  # letters of a line of a title
 LETTER_MM = 1.3  # width of one of them, of a line that has many wide ones
 STYLE: dict[Any, Any] = {
-    "font.family": "sans-serif",
+    "font.family": ["sans-serif", *EASTERN],
     "font.size": 9,
     "axes.titlesize": 9,
     "axes.titlelocation": "left",
