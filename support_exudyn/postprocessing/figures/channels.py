@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import textwrap
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -131,7 +131,7 @@ def over_time(result: Result, channels: Sequence[str], after: float = 0.0, until
     times = seconds.scale * np.array([one for one in impacts if time[0] <= one <= time[-1]])
     for axes, panel in zip(rows, panels, strict=True):
         label_values(axes, quantity(result.unit(panel[0]), tuple(panel)), unit_of(axes))
-        axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), fontsize=7, borderaxespad=0.0, ncols=1)
+        name_curves(axes, dict(zip(*reversed(axes.get_legend_handles_labels()), strict=True)), 1.0)
         if times.size:
             axes.plot(
                 times, np.zeros(times.size), "|", ms=6, mew=0.7, color=style.CONTACT,
@@ -207,6 +207,16 @@ def label_values(axes: Axes, what: str, unit: str) -> None:
     if not PLAIN[0] < max(np.abs(axes.get_ylim())) < PLAIN[1]:
         axes.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
     axes.set_ylabel(textwrap.fill(f"{what} [{unit}]", LETTERS))
+
+
+def name_curves(axes: Axes, curves: Mapping[str, Any], height: float) -> None:
+    """Write the names of curves above a panel, at a height in shares of its own; no line is pale there."""
+    legend = axes.legend(
+        list(curves.values()), list(curves), loc="lower left", bbox_to_anchor=(0.0, height), fontsize=7,
+        borderaxespad=0.0,
+    )  # fmt: skip
+    for line in legend.get_lines():
+        line.set(alpha=1.0, linewidth=1.0)
 
 
 def unit_of(axes: Axes) -> str:

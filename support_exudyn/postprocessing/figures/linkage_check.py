@@ -81,7 +81,7 @@ def _linkage(axes: Axes, report: CheckReport) -> None:
             where = ", ".join(f"{way.shown(one.travel):.4g}" for one in others)
             label = f"{way.label} at {where} {way.unit}"
             handles.append(axes.plot([], [], color=colour, ls=dashes, lw=1.2, label=label)[0])
-    axes.legend(handles=handles, loc="upper left", bbox_to_anchor=(0.0, -0.12), ncols=2, fontsize=7.5)
+    axes.legend(handles=handles, loc="upper left", bbox_to_anchor=(0.0, -0.17), ncols=2, fontsize=7.5)
 
 
 def _others(way: DriveWay, alone: bool) -> list[Moved]:

@@ -14,6 +14,7 @@ from support_exudyn.postprocessing.figures.channels import (
     draw_panels,
     error_over_time,
     label_values,
+    name_curves,
     unit_of,
 )
 from support_exudyn.postprocessing.figures.selection import common_records, inside, matching, said
@@ -163,10 +164,7 @@ def draw(
         label_values(axes, quantity(channel.unit, (name,)), unit_of(axes))
     labelled = [axes.get_legend_handles_labels() for axes in rows]
     handles = {label: line for lines, labels in labelled for line, label in zip(lines, labels, strict=True)}
-    rows[0].legend(
-        list(handles.values()), list(handles), loc="lower left", bbox_to_anchor=(0.0, 1.12), fontsize=7,
-        borderaxespad=0.0,
-    )  # fmt: skip
+    name_curves(rows[0], handles, 1.12)
     every = [curve for curves in panels.values() for curve in curves]
     marks = " (few points of a file: markers)" if any(not curve.dashes for curve in every) else ""
     errors = (

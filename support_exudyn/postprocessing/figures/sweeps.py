@@ -139,8 +139,9 @@ def histogram(table: pa.Table, y: str) -> Figure:
     axes, values = shown.axes, shown.scale * number.known
     axes.hist(values, bins="auto", color=style.FLIGHT, edgecolor="white", lw=0.6)
     for each in percentiles(values.tolist()):
-        ends = np.nan_to_num([each.low, each.high], posinf=values.max(), neginf=values.min())
-        axes.axvspan(*ends, color=style.SMOOTH, alpha=0.25, lw=0.0)
+        low = each.low if np.isfinite(each.low) else values.min()
+        high = each.high if np.isfinite(each.high) else values.max()
+        axes.axvspan(low, high, color=style.SMOOTH, alpha=0.25, lw=0.0)
         axes.axvline(each.value, color=style.IDEAL, lw=1.0)
         axes.text(
             each.value, 1.01, f"{100 * each.share:g} %", transform=axes.get_xaxis_transform(), ha="center",
