@@ -27,7 +27,7 @@ CAPTION = (
     "centre or change point; grey dots: a part on the ground turns back."
 )
 POOR = f" Grey: poor transmission, nearer than {math.degrees(LEAST):.0f} degrees to a straight line."
-LETTERS = 34  # of a line of a legend
+WIDTH_MM, COLUMNS, MARGIN_MM, HANDLE_MM = 180.0, 6, 18.0, 9.0  # of the figure, a panel, a line in a legend
 KEY: dict[str, Any] = {"fontsize": 7, "columnspacing": 1.0, "handlelength": 2.2, "borderaxespad": 0.0}
 MANY = 5  # curves of a panel
 
@@ -40,8 +40,8 @@ def check_figure(report: CheckReport) -> Figure:
     """
     ways = report.ways[:PANELS]
     rows = 0 if not ways else 1 if len(ways) < 3 else 2
-    drawing = style.begin(180, 105 + 70 * rows, report.name or report.kind)
-    grid = drawing.add_gridspec(1 + rows, 6, height_ratios=[1.7] + [1.0] * rows)
+    drawing = style.begin(WIDTH_MM, 105 + 70 * rows, report.name or report.kind)
+    grid = drawing.add_gridspec(1 + rows, COLUMNS, height_ratios=[1.7] + [1.0] * rows)
     _linkage(drawing.add_subplot(grid[0, :]), report)
     if len(ways) == 1:
         angles = report.transmission[ways[0].drive]
@@ -158,8 +158,11 @@ def _angles(axes: Axes, way: DriveWay, curves: Mapping[str, Series]) -> None:
 
 def _legend(axes: Axes, letters: int) -> None:
     """The names of curves below a panel, in as many columns as names of so many letters leave room for."""
-    columns = next((n for n in (3, 2) if n * letters < LETTERS), 1)
-    axes.legend(loc="upper left", bbox_to_anchor=(0.0, -0.36), ncols=columns, **KEY)
+    place = axes.get_subplotspec()
+    width = WIDTH_MM * len(place.colspan) / COLUMNS - MARGIN_MM if place else 0.0
+    columns = int(width / (style.LETTER_MM * letters + HANDLE_MM))
+    legend = axes.legend(loc="upper left", bbox_to_anchor=(0.0, -0.36), ncols=min(3, max(1, columns)), **KEY)
+    legend.set_in_layout(columns > 0)
 
 
 def _abscissa(axes: Axes, way: DriveWay) -> None:
