@@ -52,7 +52,7 @@ def to_xdmf(
             slips of its pins.
         path: ends in ".xdmf".
         sampling: which records are written.
-        progress: is told the share that is done.
+        progress: is called with the share that is done.
 
     Returns the paths of what was written, the machine's first.
 
@@ -137,7 +137,7 @@ class MovingMeshWriter(TimeSeriesWriter):  # type: ignore[misc]  # meshio has no
 def to_vtu(
     result: Result, folder: str | Path, sampling: Sampling = MESHES, progress: Progress = silent
 ) -> tuple[Path, ...]:
-    """The machine and its pins as a VTU file per step, with PVD files that tell their times, for ParaView.
+    """The machine and its pins as a VTU file per step, with PVD files of their times, for ParaView.
 
     In the folder: machine.pvd and pins.pvd, which ParaView opens; machine_00000.vtu and so on; names.csv.
     Fields are those of `to_xdmf`. Steps of an earlier export are replaced, and removed if they were more; other

@@ -31,7 +31,7 @@ from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError, cleaned
 
 Solution = dict[str, Any]  # as LoadSolutionFile gives it and SolutionViewer takes it
-DIGITS = 17  # as many as tell numbers of 64 bits apart
+DIGITS = 17  # as many as distinguish numbers of 64 bits
 BINARY_ENDING = ".sol"  # as the engine names such files
 BINARY_START = b"EXUBIN"
 TIMES = 8  # as much memory as its length reading a file may take

@@ -1,1 +1,1 @@
-"""Figures: one style for all, and those that a single run can be looked at by."""
+"""Figures of runs, sweeps and machines, in one style."""

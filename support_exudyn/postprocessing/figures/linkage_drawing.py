@@ -31,7 +31,7 @@ GREY, START, LOAD, MARK = "#777777", "#000000", style.PAPER, style.CONTACT
 BLOCK = 0.035, 0.022  # half of a block of unknown size, along and across, of the drawing's size
 SMALL = 0.08  # of the drawing's size: smaller bodies have no name on them
 SUPPORT = 0.028  # a pivot on the ground, of the drawing's size
-ALONG, BESIDE = 0.42, 8.0  # where the name of a bar stands: share of its length, and beside it [points]
+ALONG, ASIDE = 0.42, 8.0  # where the name of a bar stands: share of its length, and its distance [points]
 COILS, COIL, ARROW = 6, 0.02, 0.12  # of a spring, half its width; of a force: of the drawing's size
 HALO = [withStroke(linewidth=2.2, foreground="white")]
 SHOWN_CRANK = math.radians(50.0)  # of a crank that starts in line with its rod, where one hides the other
@@ -253,12 +253,12 @@ class LinkageDrawing:
         """The name of a body: on a plate, next to a bar, below a block."""
         place, aside = corners.mean(axis=0), np.zeros(2)
         if len(corners) == 1:
-            aside = np.array([-1.2 * BESIDE, 1.6 * BESIDE])
+            aside = np.array([-1.2 * ASIDE, 1.6 * ASIDE])
         elif len(corners) == 2:
             along = corners[1] - corners[0]
             place = corners[0] + ALONG * along
-            aside = BESIDE * np.array([along[1], -along[0]]) / np.hypot(*along)
-        side = "center" if abs(aside[0]) < 0.5 * BESIDE else ("left" if aside[0] > 0.0 else "right")
+            aside = ASIDE * np.array([along[1], -along[0]]) / np.hypot(*along)
+        side = "center" if abs(aside[0]) < 0.5 * ASIDE else ("left" if aside[0] > 0.0 else "right")
         look: dict[str, Any] = {"fontsize": 7, "style": "italic", "color": "#333333", "path_effects": HALO}
         offset = float(aside[0]), float(aside[1])
         self._write(as_words(name), place, offset, ha=side, va="center", zorder=5.5, **look)

@@ -1,4 +1,4 @@
-"""What of a run is looked at: channels by names and patterns, and a piece between two times."""
+"""The chosen part of a run: channels by names and patterns, and a piece between two times."""
 
 import math
 import re
@@ -90,12 +90,12 @@ def spacing(result: Result) -> float:
     return float(np.median(steps)) if steps.size else math.inf
 
 
-def nearest(time: Series, asked: Series) -> npt.NDArray[np.intp]:
+def nearest(time: Series, times: Series) -> npt.NDArray[np.intp]:
     """The indexes of the records (n,) next to times (m,) [s]; of two that are equally near the earlier one."""
     if time.size == 1:
-        return np.zeros(asked.size, dtype=np.intp)
-    after = np.clip(np.searchsorted(time, asked), 1, time.size - 1)
-    return np.where(asked - time[after - 1] <= time[after] - asked, after - 1, after).astype(np.intp)
+        return np.zeros(times.size, dtype=np.intp)
+    after = np.clip(np.searchsorted(time, times), 1, time.size - 1)
+    return np.where(times - time[after - 1] <= time[after] - times, after - 1, after).astype(np.intp)
 
 
 def common_records(

@@ -51,7 +51,7 @@ class Spectrum:
 
     @property
     def nyquist(self) -> float:
-        """Highest frequency that the samples can tell [Hz]; what is faster appears below it."""
+        """Highest frequency that the samples resolve [Hz]; what is faster appears below it."""
         return 0.5 / self.spacing
 
     def peaks(self, most: int = len(LETTERS)) -> list[tuple[float, float]]:

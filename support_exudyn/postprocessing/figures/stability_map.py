@@ -23,9 +23,9 @@ NOWHERE = "0.6"  # grey, where the journal has no equilibrium; white is a growth
 
 
 def stability_map(scenario: Scenario, pins: Sequence[str] = ()) -> Figure:
-    """Growth rates over stroke and friction, a panel for each pin that is told; by default for all.
+    """Growth rates over stroke and friction, a panel for each pin; by default for all whose stability is known.
 
-    Raises InputError if nothing is told of the scenario's pins.
+    Raises InputError if the stability of none of the scenario's pins is known.
     """
     outlooks = pin_outlooks(scenario, pins=pins or None)
     if not outlooks:

@@ -16,7 +16,7 @@ from matplotlib.font_manager import get_font_names
 from support_exudyn.files.whole_file import whole_file
 from support_exudyn.mechanics.trajectory import Series
 
-# Okabe and Ito's colours: told apart by colour-blind readers; the lightness differs too, for grey prints.
+# Okabe and Ito's colours: which differ for colour-blind readers; the lightness differs too, for grey prints.
 IDEAL = "#000000"
 WITH_CLEARANCE = "#0072B2"
 SMOOTH = "#E69F00"
@@ -29,7 +29,7 @@ STATES = ((FLIGHT, "free flight"), (CONTACT, "contact"))
 PAPER = "#882255"
 
 Dashes = str | tuple[int, tuple[float, ...]]
-# curves of a panel: colours that are told apart by all readers, dashes for grey prints
+# curves of a panel: colours that differ for all readers, dashes for grey prints
 CURVES: tuple[tuple[str, Dashes], ...] = (
     (WITH_CLEARANCE, "-"),
     (SMOOTH, (0, (6, 1.5))),

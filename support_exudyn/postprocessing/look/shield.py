@@ -74,8 +74,8 @@ class _Support:
         self.pin = min(0.6 * self.eye, max(bores, default=math.inf))
         self.plate = 0.009 * length
         shortest = min(column.start_length for column in standing.values())
-        beside = max(0.3 * math.dist(*self.feet.values()), 0.03 * shortest) if len(standing) == 2 else math.inf
-        self.column = min(0.085 * shortest, beside, 0.8 * self.usual_apart)
+        aside = max(0.3 * math.dist(*self.feet.values()), 0.03 * shortest) if len(standing) == 2 else math.inf
+        self.column = min(0.085 * shortest, aside, 0.8 * self.usual_apart)
         self.rear_link, self.front_link = 0.175 * length, 0.03 * length
         self.bracket = max(self.pair + 0.5 * self.front_link, 0.5 * self.rear_link) + 0.6 * self.plate
         self.cheek = max(0.133 * length, self.bracket + 1.1 * self.plate)
@@ -139,8 +139,8 @@ class _Support:
         for name, column in self.columns.items():
             if name not in self.feet:
                 lug = _round([(column.foot_point, 0.7 * eye), (_between(rear, hinge, 0.5), 1.4 * eye)])
-                for beside in (-1.0, 1.0):
-                    z = self._beside(name) + beside * (self._radius(name) + 0.7 * self.plate)
+                for aside in (-1.0, 1.0):
+                    z = self._aside(name) + aside * (self._radius(name) + 0.7 * self.plate)
                     parts += _both(lug, z, self.plate)
         return together(parts)
 
@@ -170,7 +170,7 @@ class _Support:
 
     def _sockets(self, name: str, low: Vector2, high: Vector2) -> list[Trimesh]:
         """Upright cylinders around the ends of both columns of a pair, between two points."""
-        places = [side * self._beside(name) for side in SIDES.values()]
+        places = [side * self._aside(name) for side in SIDES.values()]
         return [tube(at(low, z), at(high, z), 1.25 * self.column) for z in places]
 
     def _tail(self) -> Iterator[Shape]:
@@ -212,7 +212,7 @@ class _Support:
 
     # --- columns ---
 
-    def _beside(self, name: str) -> float:
+    def _aside(self, name: str) -> float:
         """Half the distance of both columns of a pair [m]."""
         return self.apart.get(name, self.usual_apart)
 
@@ -233,7 +233,7 @@ class _Support:
     def _struts(self, name: str, column: LinearActuator) -> Iterator[Shape]:
         """Both columns of a pair, or the jack in the middle."""
         meshes = self._meshes(name, column)
-        for side, z, _ in copies(self._beside(name) if column.driven else None):
+        for side, z, _ in copies(self._aside(name) if column.driven else None):
             foot, head = at(column.foot_point, z), at(column.head_point, z)
             yield from Strut(f"{name}{side}", column.foot, column.head, foot, head).shapes(*meshes)
 
@@ -244,7 +244,7 @@ class _Support:
             (f"{name}_cylinder", Role.CYLINDER, cylinder, column.foot_point),
             (f"{name}_rod", Role.ROD, rod, column.head_point),
         ):
-            yield from self._of_pair(body, role, partial(_placed, mesh, column, end), self._beside(name))
+            yield from self._of_pair(body, role, partial(_placed, mesh, column, end), self._aside(name))
 
     def _of_pair(
         self, body: str, role: Role, mesh: Callable[[float], Trimesh], apart: float, name: str = ""

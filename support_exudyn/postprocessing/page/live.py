@@ -1,6 +1,6 @@
 """Figures of time series to look into in a browser: values under the pointer, zoom, curves off and on.
 
-A figure is kept as JSON beside its picture. A page holds bokeh's script once and all its figures as data, so
+A figure is kept as JSON next to its picture. A page holds bokeh's script once and all its figures as data, so
 that it loads nothing.
 """
 

@@ -108,7 +108,7 @@ def _plot(shared: Range1d, height: int, label: str, x_label: str | None) -> Plot
 def _draw(plot: Plot, panel: LivePanel, x_label: str, drawn: dict[str, list[GlyphRenderer[Any]]]) -> None:
     """Draw the curves of a panel, and add them to those that are known by their name.
 
-    Under the pointer all values of curves with the same x are told at once, hidden ones too. Data are in single
+    Under the pointer all values of curves with the same x are shown at once, hidden ones too. Data are in single
     precision, which has their digits.
     """
     from bokeh.models import ColumnDataSource, HoverTool
@@ -141,7 +141,7 @@ def _draw(plot: Plot, panel: LivePanel, x_label: str, drawn: dict[str, list[Glyp
 
 
 def _line(column: str, name: str, label: str) -> tuple[str, str]:
-    """A line of what is told under the pointer: a name, and the value of a column with the unit of a label."""
+    """A line of what is shown under the pointer: a name, and the value of a column with the unit of a label."""
     unit = label.partition("[")[2].rstrip("]")
     return name.strip(), f"@{column}{{%.{DIGITS}g}} {unit}".strip()
 

@@ -28,7 +28,7 @@ LONGEST_STEP = 1e-3  # [s] to which the time of a single picture is printed at l
 class Moments:
     """The times of frames.
 
-    Frames need not be at records: each shows the record next to its time, for between records nobody knows
+    Frames need not be at records: each shows the record next to its time, for between records it is not known
     whether a journal has been in contact. In slow motion one record may so be seen in several frames.
 
     Arguments:

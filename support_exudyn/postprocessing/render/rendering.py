@@ -77,7 +77,7 @@ def render(
             else 1280 x 720.
         pin: whose force is shown, and its journal first of all clearance pins; None: the first clearance pin,
             or the first of all.
-        progress: is told the share that is done.
+        progress: is called with the share that is done.
 
     Raises InputError if one of these is out of its range or a channel was not recorded, OSError if something
     cannot be written.
