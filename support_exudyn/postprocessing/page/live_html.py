@@ -108,8 +108,8 @@ def _plot(shared: Range1d, height: int, label: str, x_label: str | None) -> Plot
 def _draw(plot: Plot, panel: LivePanel, x_label: str, drawn: dict[str, list[GlyphRenderer[Any]]]) -> None:
     """Draw the curves of a panel, and add them to those that are known by their name.
 
-    Under the pointer all values of curves with the same x are shown at once, hidden ones too. Data are in single
-    precision, which has their digits.
+    Under the pointer all values of curves with the same x are shown at once, hidden ones too. Data are in
+    single precision, which has their digits.
     """
     from bokeh.models import ColumnDataSource, HoverTool
 
