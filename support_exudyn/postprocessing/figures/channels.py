@@ -33,46 +33,29 @@ FLAT = 100.0  # factor of a panel's range to that of a channel in it, from which
 VISIBLE = 2e-3  # share of a panel's height from which on an error is shaded
 
 
-class _Group(NamedTuple):
-    """Channels of a unit [SI]: their least and greatest value, and the smallest range of one that varies."""
-
-    names: list[str]
-    unit: str
-    low: float
-    high: float
-    least_range: float
-
-    @property
-    def size(self) -> float:
-        return max(abs(self.low), abs(self.high))
-
-    def takes(self, one: _Group) -> bool:
-        """Whether another channel is drawn with these: none looks flat then, nor is shown in another unit."""
-        if self.unit != one.unit:
-            return False
-        if self.size == 0.0 or one.size == 0.0:
-            return self.size == one.size
-        alike = 1.0 / UNLIKE < one.size / self.size < UNLIKE
-        together = self.with_another(one)
-        flat = together.high - together.low > FLAT * together.least_range > 0.0
-        return alike and not flat and readable(self.unit, self.size) == readable(one.unit, one.size)
-
-    def with_another(self, one: _Group) -> _Group:
-        ranges = [each for each in (self.least_range, one.least_range) if each > 0.0]
-        low, high = min(self.low, one.low), max(self.high, one.high)
-        return _Group(self.names + one.names, self.unit, low, high, min(ranges, default=0.0))
-
-
 def groups(result: Result, names: Sequence[str], chosen: np.ndarray) -> list[list[str]]:
     """Channels by panel: of one unit, of like size and like range, at most as many as there are colours."""
-    found: list[_Group] = []
+    ends = {name: (float(result[name][chosen].min()), float(result[name][chosen].max())) for name in names}
+
+    def fit(panel: Sequence[str]) -> bool:
+        """Whether the last channel is drawn with the others: none looks flat then, nor has another unit."""
+        unit, low_high = result.unit(panel[-1]), np.array([ends[name] for name in panel])
+        sizes, ranges = np.abs(low_high).max(axis=1), np.ptp(low_high, axis=1)
+        size, others = float(sizes[-1]), float(sizes[:-1].max())
+        if result.unit(panel[0]) != unit or 0.0 in (size, others):
+            return result.unit(panel[0]) == unit and size == others
+        alike = 1.0 / UNLIKE < size / others < UNLIKE and readable(unit, others) == readable(unit, size)
+        return alike and bool(np.ptp(low_high) <= FLAT * ranges[ranges > 0.0].min(initial=math.inf))
+
+    panels: list[list[str]] = []
     for name in names:
-        values = result[name][chosen]
-        low, high = float(values.min()), float(values.max())
-        one = _Group([name], result.unit(name), low, high, high - low)
-        place = next((n for n, other in enumerate(found) if other.takes(one)), len(found))
-        found[place : place + 1] = [found[place].with_another(one) if place < len(found) else one]
-    parts = (np.array_split(group.names, math.ceil(len(group.names) / len(CURVES))) for group in found)
+        panel = next((panel for panel in panels if fit([*panel, name])), None)
+        if panel is None:
+            panels.append([name])
+        else:
+            panel.append(name)
+    most = len(CURVES)
+    parts = (np.array_split(panel, math.ceil(len(panel) / most)) for panel in panels)
     return [part.tolist() for split in parts for part in split]
 
 
