@@ -56,9 +56,14 @@ def meant(name: Any, known: Iterable[str]) -> str:
     return f"there are {', '.join(map(repr, names[:NEAR]))}{more}"
 
 
-def unknown(what: str, name: str, known: Iterable[str]) -> str:
-    """The message for a name that is not known: what it is of, the nearest names, and all that are allowed."""
+def suggestion(name: str, known: Iterable[str]) -> str:
+    """The way out of a name that is not known: those like it, and all that are allowed."""
     names = list(known)
     near = get_close_matches(name[:LETTERS], names, NEAR, LIKE)
     guess = f"did you mean {' or '.join(map(repr, near))}? " if near else ""
-    return f"unknown {what} {name!r:.{LETTERS}}; {guess}allowed: {', '.join(names) or 'none'}"
+    return f"{guess}allowed: {', '.join(names) or 'none'}"
+
+
+def unknown(what: str, name: str, known: Iterable[str]) -> str:
+    """The message for a name that is not known; what: it should be of."""
+    return f"unknown {what} {name!r:.{LETTERS}}; {suggestion(name, known)}"

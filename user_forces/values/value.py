@@ -182,7 +182,7 @@ class Value:
 
         Raises InputError if the type is not known or a field does not fit.
         """
-        return _value_of(data, 0)
+        return _rebuilt(data, _class_of(data))
 
 
 def removed_fields(cls: type[Value]) -> Mapping[str, str]:
@@ -267,30 +267,34 @@ def _plain(item: Any) -> Any:
     return item
 
 
-def _value_of(data: Any, depth: int) -> Any:
+def _class_of(data: Any) -> type[Value]:
+    """The class that plain data name. Raises InputError if there is none."""
     kind = data.get("type") if isinstance(data, Mapping) else None
     found = known_class(kind) if isinstance(kind, str) else None
-    if found is None or not is_kind_of(found, Value):
-        known = kinds_of(Value)
-        near = ", ".join(get_close_matches(kind if isinstance(kind, str) else "", known, NEAR, 0.0))
-        raise InputError(
-            f"type = {short(kind)}: not a known type; allowed: those of {len(known)} classes, such as {near}; "
-            "one's own have to be imported first, on a command line by --import FILE"
-        )
-    given = of_earlier_version(found, data)
-    return found(**{k: _rebuilt(v, depth + 1) for k, v in given.items() if k != "type"})
+    if found is not None and is_kind_of(found, Value):
+        return found
+    known = kinds_of(Value)
+    near = ", ".join(get_close_matches(kind if isinstance(kind, str) else "", known, NEAR, 0.0))
+    raise InputError(
+        f"type = {short(kind)}: not a known type; allowed: those of {len(known)} classes, such as {near}; "
+        "one's own have to be imported first, on a command line by --import FILE"
+    )
 
 
-def _rebuilt(item: Any, depth: int) -> Any:
+def _rebuilt(item: Any, cls: type[Value] | None = None, depth: int = 0) -> Any:
+    """Plain data with values in place of the tables that name a class; cls: of this table."""
     if depth > DEEPEST:
         raise InputError(f"data = {short(item)}: are nested too deep; allowed: {DEEPEST} levels")
-    if isinstance(item, Mapping):
-        if "type" in item:
-            return _value_of(item, depth)
-        return {k: _rebuilt(v, depth + 1) for k, v in item.items()}
     if isinstance(item, list):
-        return tuple(_rebuilt(v, depth + 1) for v in item)
-    return item
+        return tuple(_rebuilt(one, None, depth + 1) for one in item)
+    if not isinstance(item, Mapping):
+        return item
+    cls = _class_of(item) if cls is None and "type" in item else cls
+    given = item if cls is None else of_earlier_version(cls, item)
+    inside = {
+        name: _rebuilt(one, None, depth + 1) for name, one in given.items() if cls is None or name != "type"
+    }
+    return inside if cls is None else cls(**inside)
 
 
 T = TypeVar("T")

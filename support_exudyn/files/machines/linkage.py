@@ -13,7 +13,6 @@ from support_exudyn.files.machines.linkage_joints import (
     LinkageGearData,
     LinkageGuideData,
     LinkagePinData,
-    missing_masses,
 )
 from support_exudyn.files.machines.linkage_loads import (
     LinkageForceData,
@@ -21,7 +20,6 @@ from support_exudyn.files.machines.linkage_loads import (
     LinkageTorqueData,
     LinkageTorsionData,
 )
-from support_exudyn.files.machines.parts import ColumnData
 from support_exudyn.files.toml.shapes import Names
 from support_exudyn.machines.check.statics import mobility
 from support_exudyn.machines.machine_data import MachineData
@@ -29,7 +27,6 @@ from support_exudyn.machines.planar_linkage import PlanarLinkage
 from support_exudyn.machines.strength.strength_data import StrengthData
 from support_exudyn.mechanics.closure import assembled
 from support_exudyn.mechanics.postures import set_moving
-from support_exudyn.model.actuators import CylinderAndRod
 from support_exudyn.model.linkage import GROUND, Crank, Linkage, TracePoint
 from support_exudyn.model.loads.load import ActingLoad
 from support_exudyn.model.plane_geometry import distance
@@ -141,6 +138,7 @@ class LinkageFile(Value):
         closed = assembled(drawing, angles, self.start.length, origins=origins, held=held)
         _check_driven(closed)
         acting = self._acting(closed)
+        columns = {name: one.column(f"actuators.{name}") for name, one in self.actuators.items()}
         closed = replace(closed, points={name: closed.points[name] for name in self.traced_points})
         lengths = self.width.get("pins", {})
         return MachineData(
@@ -150,7 +148,7 @@ class LinkageFile(Value):
             self.name,
             bore_radii=self.bore_radius,
             blocks={name: one.block for name, one in self.guides.items() if one.block is not None},
-            actuators=self._columns(),
+            actuators={name: one for name, one in columns.items() if one is not None},
             stroke=self.stroke,
             sources=self.sources,
             kind=self.kind,
@@ -226,24 +224,6 @@ class LinkageFile(Value):
                 if name in taken:
                     raise InputError(f"{what}.{name}: {taken[name]}.{name} has this name; allowed: another")
                 taken[name] = what
-
-    def _columns(self) -> dict[str, CylinderAndRod]:
-        """Masses of the actuators that say them, by name."""
-        found = {}
-        for name, one in self.actuators.items():
-            if missing := list(missing_masses(one)):
-                raise InputError(
-                    f"actuators.{name}.{missing[0]}: missing; allowed: masses and lengths of both, or none"
-                )
-            if one.cylinder_mass and one.rod_mass and one.cylinder_length and one.rod_length:
-                column = ColumnData(
-                    cylinder_mass=one.cylinder_mass,
-                    cylinder_length=one.cylinder_length,
-                    rod_mass=one.rod_mass,
-                    rod_length=one.rod_length,
-                )
-                found[name] = column.column()
-        return found
 
 
 def _check_driven(linkage: Linkage) -> None:

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import Annotated
 
 from pydantic import Field
 
 from support_exudyn.files.machines.linkage_bodies import DrawnBody
-from support_exudyn.files.machines.parts import check_known
+from support_exudyn.files.machines.parts import ColumnData, check_known
+from support_exudyn.model.actuators import CylinderAndRod
 from support_exudyn.model.linkage import GROUND, Gear, LinearActuator, PinPlace, Slide
 from support_exudyn.model.plane_geometry import direction
 from user_forces.values.units import Kilograms, Metres, Radians
 from user_forces.values.value import InputError, Positive, Real, Value, Vector2, value
 
+MASSES = ("cylinder_mass", "cylinder_length", "rod_mass", "rod_length")
 Flag = Annotated[bool, Field(strict=True)]
 
 
@@ -93,6 +95,14 @@ class LinkageActuatorData(Value):
     cylinder_length: Metres[Positive] | None = None
     rod_mass: Kilograms[Positive] | None = None
     rod_length: Metres[Positive] | None = None
+
+    def column(self, where: str) -> CylinderAndRod | None:
+        """The actuator as two bodies; None without masses. Raises InputError if some of them are missing."""
+        given = {name: getattr(self, name) for name in MASSES if getattr(self, name) is not None}
+        if missing := [name for name in MASSES if given and name not in given]:
+            key = f"{missing[0]}_{'kg' if 'mass' in missing[0] else 'mm'}"
+            raise InputError(f"{where}.{key}: missing; allowed: masses and lengths of both, or none")
+        return ColumnData(**given).column() if given else None
 
 
 class DrawnPoints:
@@ -180,13 +190,3 @@ class DrawnPoints:
         if ends[0] == ends[1]:
             raise InputError(f"{where}.at = {list(data.at)}: allowed: two points at different places")
         return LinearActuator(foot=foot, head=head, foot_point=ends[0], head_point=ends[1], driven=data.driven)
-
-
-MASSES = ("cylinder_mass", "cylinder_length", "rod_mass", "rod_length")
-
-
-def missing_masses(data: LinkageActuatorData) -> Iterator[str]:
-    """Keys that miss of the masses and lengths of an actuator that says some of them."""
-    given = [name for name in MASSES if getattr(data, name) is not None]
-    if given:
-        yield from (f"{name}_{'kg' if 'mass' in name else 'mm'}" for name in MASSES if name not in given)

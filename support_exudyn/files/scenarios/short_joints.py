@@ -8,14 +8,13 @@ from __future__ import annotations
 import math
 from abc import ABC
 from collections.abc import Callable, Mapping
-from dataclasses import fields
 from functools import partial
 from types import MappingProxyType
 from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field, model_validator
 
-from support_exudyn.files.toml.shapes import GroupShape, Names
+from support_exudyn.files.toml.shapes import Names
 from support_exudyn.model.guides import ClearanceGuide, Gaps, Guide, IdealGuide
 from support_exudyn.model.machine import Machine
 from support_exudyn.model.pin_surroundings import contact_length, links_stiffness
@@ -37,6 +36,7 @@ from user_forces.values.value import (
     Restitution,
     Value,
     Vector2,
+    kinds_of,
     value,
 )
 
@@ -49,8 +49,7 @@ Length = Annotated[Positive, Field(le=10.0)]  # of any pin [m]: in a wrong unit 
 
 def simple_laws() -> tuple[str, ...]:
     """Names of the laws that need a stiffness K of K depth^1.5 and a restitution at most."""
-    known = GroupShape((NormalLaw,)).kinds.items()
-    return tuple(name for name, law in known if _is_simple(law))
+    return tuple(sorted(name for name, law in kinds_of(NormalLaw).items() if _is_simple(law)))
 
 
 def _is_simple(law: type[Value]) -> bool:
@@ -61,8 +60,7 @@ def _is_simple(law: type[Value]) -> bool:
 
 def simple_friction_laws() -> tuple[str, ...]:
     """Names of the friction laws that need one coefficient at most."""
-    known = GroupShape((FrictionLaw,)).kinds.items()
-    return tuple(name for name, law in known if len(needed_by(law)) <= 1)
+    return tuple(sorted(name for name, law in kinds_of(FrictionLaw).items() if len(needed_by(law)) <= 1))
 
 
 def needed_by(law: type[Value]) -> set[str]:
@@ -71,19 +69,9 @@ def needed_by(law: type[Value]) -> set[str]:
     return {name for name, one in info.items() if one.is_required()}
 
 
-def _law_in_full(name: str) -> str:
+def _in_full(base: type[Value], key: str, takes: str, place: str, name: str) -> str:
     """Advice on a law that a short form has no room for, or that is not known."""
-    place = 'type = "ClearancePin" and in [pins.NAME.contact], or "ClearanceGuide" and in it, normal = '
-    return _in_full(name, NormalLaw, "law", "stiffness and restitution", place)
-
-
-def _friction_in_full(name: str) -> str:
-    """Advice on a friction law that a short form has no room for, or that is not known."""
-    return _in_full(name, FrictionLaw, "friction_law", "one coefficient", "friction = ")
-
-
-def _in_full(name: str, base: type[Value], key: str, takes: str, place: str) -> str:
-    known = GroupShape((base,)).kinds
+    known = kinds_of(base)
     if name not in known:
         return f'a law of your own: {key} = "FILE.py:CLASS", with --import FILE'
     needed = ", ".join(sorted(needed_by(known[name]))) or "fields of its own"
@@ -91,6 +79,20 @@ def _in_full(name: str, base: type[Value], key: str, takes: str, place: str) -> 
         f"{key} takes laws of {takes} only, and {name} has {needed}: give it in full, "
         f'{place}{{ type = "{name}", ... }}'
     )
+
+
+IN_FULL = 'type = "ClearancePin" and in [pins.NAME.contact], or "ClearanceGuide" and in it, normal = '
+SimpleLaw = Annotated[
+    str,
+    Names(simple_laws, instead=partial(_in_full, NormalLaw, "law", "stiffness and restitution", IN_FULL)),
+]
+SimpleFriction = Annotated[
+    str,
+    Names(
+        simple_friction_laws,
+        instead=partial(_in_full, FrictionLaw, "friction_law", "one coefficient", "friction = "),
+    ),
+]
 
 
 @value
@@ -111,8 +113,8 @@ class ShortContact(Value, ABC):
 
     restitution: Restitution | None = None
     friction: Coefficient | FrictionLaw = 0.0
-    friction_law: Annotated[str, Names(simple_friction_laws, instead=_friction_in_full)] | None = None
-    law: Annotated[str, Names(simple_laws, instead=_law_in_full)] | None = None
+    friction_law: SimpleFriction | None = None
+    law: SimpleLaw | None = None
     rest_velocity: MetresPerSecond[Positive] | None = None
 
     @classmethod
@@ -121,10 +123,6 @@ class ShortContact(Value, ABC):
 
     @model_validator(mode="after")
     def _nothing_is_left_unused(self) -> ShortContact:
-        known = {one.name for one in fields(self.law_class)} if self.law_class else set()
-        for name in ("restitution", "rest_velocity"):
-            if self.law and getattr(self, name) is not None and name not in known:
-                raise ValueError(f"{name}: the law {self.law} has none; allowed with it: to leave this out")
         if self.friction_law is not None and isinstance(self.friction, FrictionLaw):
             raise ValueError("friction_law: and a law as friction are two; allowed: one of them")
         for name in self.UNUSED_WITH_A_STIFFNESS:
@@ -135,14 +133,14 @@ class ShortContact(Value, ABC):
     @property
     def law_class(self) -> Any:
         """Class of the normal law; None for the usual one."""
-        return None if self.law is None else GroupShape((NormalLaw,)).kinds[self.law]
+        return None if self.law is None else kinds_of(NormalLaw)[self.law]
 
     @property
     def chosen_friction(self) -> float | FrictionLaw:
         """The friction law, or the coefficient of the usual one."""
         if isinstance(self.friction, FrictionLaw) or self.friction_law is None:
             return self.friction
-        law: Any = GroupShape((FrictionLaw,)).kinds[self.friction_law]
+        law: Any = kinds_of(FrictionLaw)[self.friction_law]
         coefficient = next(iter(needed_by(law)), COEFFICIENT)
         takes = coefficient in law.__pydantic_fields__
         if self.friction and not takes:
