@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from support_exudyn.files.machines import reference_support as reference_support
     from support_exudyn.files.own_modules import trusted as trusted
     from support_exudyn.files.scenarios.scenario_file import read_scenario as read_scenario
-    from support_exudyn.files.scenarios.simple_scenario import simple_scenario as simple_scenario
+    from support_exudyn.files.scenarios.scenario_file import simple_scenario as simple_scenario
     from support_exudyn.machines.four_column_support import HydraulicSupport as HydraulicSupport
     from support_exudyn.machines.free_impact import ImpactStand as ImpactStand
     from support_exudyn.machines.planar_linkage import PlanarLinkage as PlanarLinkage

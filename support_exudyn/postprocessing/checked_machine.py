@@ -6,8 +6,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from support_exudyn.files.scenarios.scenario_file import read_machine_in, read_scenario
-from support_exudyn.files.scenarios.simple_scenario import simple_scenario
+from support_exudyn.files.scenarios.scenario_file import read_machine_in, read_scenario, simple_scenario
 from support_exudyn.files.toml.text import load_toml
 from support_exudyn.machines.check import CheckReport, CheckTable, check_machine
 from support_exudyn.machines.machine_data import MachineData

@@ -24,8 +24,12 @@ from support_exudyn import (
 )
 from support_exudyn.__main__ import main
 from support_exudyn.files.machines.read import SHIPPED, load_machine
-from support_exudyn.files.scenarios.scenario_file import read_scenario, read_scenario_file, scenario_text
-from support_exudyn.files.scenarios.simple_scenario import simple_scenario
+from support_exudyn.files.scenarios.scenario_file import (
+    read_scenario,
+    read_scenario_file,
+    scenario_text,
+    simple_scenario,
+)
 from support_exudyn.machines.check import check_machine
 from support_exudyn.machines.check.joint_warnings import joint_warnings
 from support_exudyn.machines.planar_linkage import PlanarLinkage

@@ -12,7 +12,7 @@ from support_exudyn.files.machines.read import SHIPPED, read_machine
 from support_exudyn.files.scenarios.drive_table import one_drive, read_drives
 from support_exudyn.files.scenarios.short_joints import ShortContact, ShortGuide, ShortPin, pin_in_machine
 from support_exudyn.files.toml.faults import Faults, Place, said
-from support_exudyn.files.toml.reading import FAILED, Failed, Reader
+from support_exudyn.files.toml.reading import FAILED, Reader
 from support_exudyn.files.toml.shapes import GroupShape, field_shapes
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.model.actuators import CylinderAndRod
@@ -71,7 +71,7 @@ def read_machine_of(
         return _from_file(given, faults, folder)
     if isinstance(given, dict):
         found = Reader(faults, sourced=sourced).member(GroupShape((Machine,)), given, ("machine",))
-        return None if isinstance(found, Failed) else MachineData(found)
+        return None if found is FAILED else MachineData(found)
     if isinstance(given, (Machine, MachineData)):  # made by a program, see `simple_scenario`
         return MachineData(given) if isinstance(given, Machine) else given
     said = f"a path that ends in .toml, one of {', '.join(SHIPPED)}, or a table [machine]"
@@ -176,7 +176,7 @@ class ShortForms:
                 return FAILED
             return reader.value(ideal, {key: one for key, one in item.items() if key != "ideal"}, place)
         found = reader.value(short, item, place)
-        if isinstance(found, Failed) or self.data is None:
+        if found is FAILED or self.data is None:
             return FAILED
         try:
             return made(self.data, found)
@@ -207,7 +207,7 @@ class ShortForms:
             return self._mode(reader, item["mode"], {k: one for k, one in item.items() if k != "mode"}, place)
         if "table" in item:
             file = reader.value(DriveFile, item, place)
-            if isinstance(file, Failed):
+            if file is FAILED:
                 return FAILED
             turning = self._turning(place)
             turns = next(iter(turning)) if len(turning) == 1 else None
@@ -277,7 +277,7 @@ class ShortForms:
             return {}
         own = {key: one for key, one in given.items() if not isinstance(one, dict)}
         file = reader.value(DrivesFile, own, ("drives",))
-        if isinstance(file, Failed):
+        if file is FAILED:
             return {"": FAILED}
         read = partial(read_drives, self.folder / file.table, file.between, self._turns)
         found = _read(read, reader.faults, file.table, ("drives", "table"))

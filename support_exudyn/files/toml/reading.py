@@ -40,11 +40,7 @@ SMALLEST_EXPONENT = -1000  # of a decimal; what is smaller is 0
 ShortForm = Callable[["Reader", Any, Place], Any]
 
 
-class Failed:
-    """The stand-in for a value that could not be read; the reason is among the faults."""
-
-
-FAILED = Failed()
+FAILED: Any = object()  # stands for a value that could not be read; the reason is among the faults
 
 
 class Reader:
