@@ -142,7 +142,8 @@ class Value:
     @classmethod
     def __get_pydantic_core_schema__(cls, source: Any, handler: GetCoreSchemaHandler) -> Any:
         """Schema for pydantic: a field of this class takes values of it, of later subclasses too."""
-        if cls in _being_made:
+        is_late = not _being_made and vars(cls).get("__pydantic_complete__") is False  # it named a later class
+        if cls in _being_made or is_late:  # its own schema
             return handler(source)
 
         def member(item: Any) -> Any:

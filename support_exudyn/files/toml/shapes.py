@@ -189,7 +189,7 @@ def field_shapes(cls: type[Value]) -> Mapping[str, FieldShape]:
 def _field_shapes(cls: type[Value]) -> Mapping[str, FieldShape]:
     found: dict[str, FieldShape] = {}
     declared: Mapping[str, FieldInfo] = cls.__pydantic_fields__  # type: ignore[attr-defined]
-    shapes = _Shapes(cls.__name__).generate(cls.__pydantic_core_schema__)["properties"]  # type: ignore[attr-defined]
+    shapes = _Shapes(cls).of_fields()
     for one in dataclass_fields(cls):  # type: ignore[arg-type]
         info = declared[one.name]
         allows_none = type(None) in typing.get_args(info.annotation)
@@ -207,14 +207,23 @@ def _field_shapes(cls: type[Value]) -> Mapping[str, FieldShape]:
 
 
 class _Shapes(GenerateJsonSchema):
-    """Pydantic's generator of JSON Schemas, for the shapes of the fields of a class.
+    """Pydantic's generator of JSON Schemas, for the shapes of the fields of a class."""
 
-    where: the class, for messages.
-    """
-
-    def __init__(self, where: str) -> None:
+    def __init__(self, cls: type[Value]) -> None:
         super().__init__()
-        self.where = where
+        self.cls = cls
+
+    def of_fields(self) -> Mapping[str, Shape]:
+        """The shapes, by the names of the fields."""
+        schema: Any = self.cls.__pydantic_core_schema__  # type: ignore[attr-defined]
+        if schema["type"] == "definitions":  # of a class with fields of its own kind
+            own = schema["schema"]["schema_ref"]
+            schema = next(one for one in schema["definitions"] if one.get("ref") == own)
+        return self.generate(schema)["properties"]  # type: ignore[no-any-return]
+
+    def definition_ref_schema(self, schema: Any) -> Any:
+        """The class itself."""
+        return {"group": GroupShape((self.cls,))}
 
     def generate_inner(self, schema: Any) -> dict[str, Any]:
         """The shape of what a schema of pydantic takes, its bounds by the words of JSON Schema."""
@@ -254,8 +263,8 @@ class _Shapes(GenerateJsonSchema):
     def handle_invalid_for_json_schema(self, schema: Any, error_info: str) -> Never:
         """Raise InputError: a field is of a type that files have no form for."""
         raise InputError(
-            f"{self.where}: has a field of a type that files have no form for, {error_info}; allowed: numbers, "
-            "texts, bool, Literal, values, and tuples and mappings of them"
+            f"{self.cls.__name__}: has a field of a type that files have no form for, {error_info}; allowed: "
+            "numbers, texts, bool, Literal, values, and tuples and mappings of them"
         )
 
 

@@ -7,7 +7,7 @@ from typing import Any
 from support_exudyn.files.own_modules import NotImported
 from support_exudyn.files.toml.shapes import FieldShape, Shape, field_shapes, inner_shape, options
 from user_forces.values.units import Unit
-from user_forces.values.value import InputError, Value
+from user_forces.values.value import InputError, Value, short
 
 
 def table_of(value: Value, says_type: bool = True, endings: Collection[str] = ()) -> dict[str, Any]:
@@ -53,4 +53,9 @@ def _item(item: Any, shape: Shape, unit: Unit | None, endings: tuple[str, ...]) 
         return [_item(one, inner_shape(shape, n), unit, endings) for n, one in enumerate(items)]
     if isinstance(item, float) or (isinstance(item, int) and not isinstance(item, bool) and unit is not None):
         return Decimal(repr(item)) if unit is None else unit.write(float(item), endings[0])
+    if not isinstance(item, (str, int)):
+        raise InputError(
+            f"{short(item)}: is of a type that files have no form for; allowed: numbers, texts, bool, values, and "
+            "tuples and mappings of them"
+        )
     return item
