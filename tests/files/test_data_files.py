@@ -74,6 +74,28 @@ class Sheave(Value):
     whole: bool = False
 
 
+@value
+class Branch(Value):
+    """A test's own class with fields of its own kind.
+
+    Arguments:
+        size: [m], > 0.
+        first, rest: further branches.
+    """
+
+    size: Metres[Positive]
+    first: Branch | None = None
+    rest: tuple[Branch, ...] = ()
+
+
+def test_a_class_may_have_fields_of_its_own_kind() -> None:
+    tree = Branch(size=1.0, first=Branch(size=0.2), rest=(Branch(size=0.3),))
+    assert read(Branch, toml_text(table_of(tree))) == tree
+    assert refusal(Branch, "size_m = 1\nfirst.size_mm = -1") == "a.toml: first.size_mm = -1: allowed: > 0"
+    said = "a.toml: rest[0].sze_mm: unknown key; did you mean size_mm"
+    assert refusal(Branch, "size_m = 1\nrest = [{sze_mm = 1}]").startswith(said)
+
+
 def test_numbers_are_rounded_once() -> None:
     # 0.1 mm + rounding of 1e-3 would be 1.0000000000000002e-04 for some of them
     for written in ("0.1", "0.3", "65.5", "1.1", "0.7", "37.7"):

@@ -55,7 +55,7 @@ def _item(item: Any, shape: Shape, unit: Unit | None, endings: tuple[str, ...]) 
         return Decimal(repr(item)) if unit is None else unit.write(float(item), endings[0])
     if not isinstance(item, (str, int)):
         raise InputError(
-            f"{short(item)}: is of a type that files have no form for; allowed: numbers, texts, bool, values, and "
-            "tuples and mappings of them"
+            f"{short(item)}: is of a type that files have no form for; allowed: numbers, texts, bool, values, "
+            "and tuples and mappings of them"
         )
     return item
