@@ -23,6 +23,7 @@ WRONG_USAGE = 2  # exit code
 Json = Annotated[bool, Parameter(help="Print one JSON object instead of text, in SI units.")]
 After = Annotated[float, Parameter(help="First time [s] (the start).")]
 Until = Annotated[float, Parameter(help="Last time [s] (the end).")]
+Rate = Annotated[float, Parameter(validator=Number(gt=0.0))]
 Imports = Annotated[
     tuple[str, ...],
     Parameter(

@@ -7,6 +7,7 @@ from typing import Annotated
 from support_exudyn.commands.command_line import (
     After,
     Json,
+    Rate,
     Until,
     answer,
     answered,
@@ -35,6 +36,7 @@ def compare(
     page: Path | None = None,
     after: After = -math.inf,
     until: Until = math.inf,
+    rate: Rate | None = None,
     json: Json = False,
 ) -> int:
     """Print by how much files differ from the first, and the verdict, which the exit code gives.
@@ -53,6 +55,7 @@ def compare(
         junit: JUnit XML for test servers: a test case for each channel.
         figure: Figure, .png, .pdf or .svg: curves, differences, what is allowed.
         page: Page for a browser with all of it.
+        rate: Rows per second [Hz] of files without times.
     """
 
     def work() -> int:
@@ -72,6 +75,7 @@ def compare(
                 after=after,
                 until=until,
                 find_shift=shift,
+                rate=rate,
                 progress=progress,
             )
         written: list[Path] = []

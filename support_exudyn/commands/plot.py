@@ -7,7 +7,7 @@ from typing import Annotated
 from cyclopts import Parameter
 from cyclopts.validators import Number
 
-from support_exudyn.commands.command_line import FIGURES, After, Json, Until, is_file, put, warn
+from support_exudyn.commands.command_line import FIGURES, After, Json, Rate, Until, is_file, put, warn
 from support_exudyn.commands.runs import by_name, files_and_channels, is_of_others
 from support_exudyn.files.series.read import read_series
 from support_exudyn.simulation.result import Result
@@ -30,6 +30,7 @@ def plot(
     until: Until = math.inf,
     phase: Share = 0.0,
     section: tuple[str, str] | None = None,
+    rate: Rate | None = None,
     out: Annotated[Path | None, FIGURES] = None,
     json: Json = False,
 ) -> None:
@@ -47,6 +48,7 @@ def plot(
         pin: Pin of orbit, section, spectrum and stability (the first with clearance).
         phase: Share of the period, 0 to 1, at which a section is taken (0).
         section: Two channels of a section once in every period.
+        rate: Rows per second [Hz] of files without times.
         out: Folder of the figures (RUN_figures next to the run), or file of the only figure (.png, .pdf, .svg).
     """
     from support_exudyn.postprocessing.figures import of_runs, style
@@ -71,7 +73,10 @@ def plot(
     left_out: dict[str, str] = {}
     with style.look():
         if len(names) > 1:
-            series = {name: read_series(path) for name, path in curves.items()}
+            series = {name: read_series(path, rate=rate) for name, path in curves.items()}
+            for name, one in series.items():
+                for note in one.notes:
+                    warn(f"{name}: {note}")
             called = "_less_".join([*names][::-1]) if difference else "_and_".join([*runs, *curves])
             drawn = {of_runs.in_name(patterns): of_runs.of_several(runs, series, patterns, ends, difference)}
         else:

@@ -9,7 +9,10 @@ from user_forces.values.value import InputError
 
 RUN, CSV, TOML = ".h5", ".csv", ".toml"
 # a word with such an ending is a file even if it is not there, and no channel
-ENDINGS = (RUN, CSV, ".txt", ".tab", ".tsv", ".dat", ".res", ".req", ".mat", ".parquet", ".xml")
+ENDINGS = (
+    *(RUN, CSV, ".txt", ".tab", ".tsv", ".dat", ".res", ".req", ".mat", ".parquet", ".xml", ".lvm"),
+    *(".xlsx", ".xlsm", ".feather", ".json", ".tdms", ".xls"),
+)
 HEAD = 600  # bytes by which runs are distinguished from series of others
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from datetime import datetime, timedelta
 from pathlib import Path
 
 import h5py
@@ -108,6 +109,104 @@ def exudyn_binary(end: bytes = b"\xff\xff\xff\xff") -> bytes:
     return head + b"".join(rows) + end
 
 
+LABVIEW = """LabVIEW Measurement\t
+Separator\tTab
+Decimal_Separator\t,
+Multi_Headings\tYes
+X_Columns\tONE
+Time_Pref\tRelative
+Date\t2019/07/22
+Time\t17:18:18,938945770263671875
+***End_of_Header***\t
+\t
+Channels\t2\t\t
+Samples\t100\t100\t
+Date\t2019/07/22\t2019/07/22\t
+Time\t17:18:18,5\t17:18:18,5\t
+Y_Unit_Label\tVolts\tkN\t
+X_Dimension\tTime\tTime\t
+X0\t0,0E+0\t0,0E+0\t
+Delta_X\t0,001000\t0,001000\t
+***End_of_Header***\t\t
+X_Value\tUntitled\tForce\tComment
+0,000\t0,5\t1,5
+0,001\t0,6\t1,6\thello
+"""
+
+
+def labview(x_columns: str = "One", segments: int = 1) -> str:
+    """A measurement file of LabVIEW with a kind of columns of times, and segments two seconds apart."""
+    head, title, rows = LABVIEW.replace("ONE", x_columns).partition("X_Value")
+    if x_columns == "No":
+        rows = rows.replace("\n0,000", "\n").replace("\n0,001", "\n")
+    if x_columns == "Multi":
+        rows = "\tUntitled\tX_Value\tForce\tComment\n0,000\t0,5\t0,000\t1,5\n0,001\t0,6\t0,002\t1,6\thello\n"
+    own = head[head.index("Channels") :] + title + rows
+    return head + title + rows + "".join(own.replace(":18,5", f":{18 + 2 * n},5") for n in range(1, segments))
+
+
+def workbook() -> bytes:
+    """A workbook of Excel: a sheet of words, one with dates and a line above its titles, and one more."""
+    import openpyxl
+
+    book = openpyxl.Workbook()
+    book.active.append(["About", "the test"])
+    data, more = book.create_sheet("Data"), book.create_sheet("More")
+    begin = datetime(2023, 5, 4, 6)
+    rows = [["Test rig 7"], [], ["Time", "Force [KN]", "Remark", "x (mm)"], [begin, 1.5, "ok", 1]]
+    for row in [*rows, [begin + timedelta(seconds=0.5), None, "ok", 2.25]]:
+        data.append(row)
+    for row in (["time_s", "F_kN"], [0, 1], [1, 2]):
+        more.append(row)
+    stream = io.BytesIO()
+    book.save(stream)
+    return stream.getvalue()
+
+
+def modelica(form: str = "binTrans") -> bytes:
+    """What Dymola and OpenModelica write: rows are variables (binTrans) or columns (binNormal)."""
+    names = {
+        "Time": "Time in [s]",
+        "J.phi": "angle [rad|deg]",
+        "back": "-J.phi",
+        "J.w": "speed [rad/s]",
+        "m": "[kg]",
+    }
+    info = np.array([[0, 1, 0, -1], [2, 2, 0, -1], [2, -2, 0, -1], [2, 3, 0, -1], [1, 2, 0, 0]], dtype=np.int32)
+
+    def letters(words: list[str]) -> np.ndarray:
+        table = np.array([list(word.ljust(max(map(len, words)))) for word in words])
+        return np.array(["".join(row) for row in (table.T if form == "binTrans" else table)])
+
+    def numbers(table: np.ndarray) -> np.ndarray:
+        return table.T if form == "binTrans" else table
+
+    data = {
+        "Aclass": np.array(["Atrajectory", "1.1", " ", form]),
+        "name": letters([*names]),
+        "description": letters([*names.values()]),
+        "dataInfo": numbers(info),
+        "data_1": numbers(np.array([[0.0, 7.0], [1.0, 7.0]])),
+        "data_2": numbers(np.c_[TIME, TIME**2, 3.0 * TIME]),
+    }
+    file = io.BytesIO()
+    scipy.io.savemat(file, data, format="4")
+    return file.getvalue()
+
+
+def simulink() -> bytes:
+    """Arrays and structures with time as Simulink saves them, with signals of one and three columns."""
+    signals = np.zeros((1, 2), dtype=[("values", object), ("dimensions", object), ("label", object)])
+    signals[0, 0] = (TIME.reshape(-1, 1), 1.0, "Force_kN")
+    signals[0, 1] = (np.c_[TIME, 2 * TIME], 2.0, "")
+    scope = {"time": TIME.reshape(-1, 1), "signals": signals, "blockName": "model/Scope"}
+    single = {"values": (3 * TIME).reshape(-1, 1), "dimensions": 1.0, "label": "", "blockName": "model/x_mm"}
+    file = io.BytesIO()
+    data = {"tout": TIME.reshape(-1, 1), "yout": np.c_[TIME, TIME**2], "scope": scope}
+    scipy.io.savemat(file, data | {"simout": {"time": TIME.reshape(-1, 1), "signals": single}})
+    return file.getvalue()
+
+
 def files() -> dict[str, bytes]:
     """A file of every format but MATLAB's, by its name."""
     return {
@@ -118,6 +217,10 @@ def files() -> dict[str, bytes]:
         "solution.txt": SOLUTION.encode(),
         "solution.sol": exudyn_binary(),
         "table.parquet": parquet_bytes(),
+        "lab.lvm": labview().encode(),
+        "stamps.csv": b"Date;Time;F_kN\n04.05.2023;06:00:00;1,5\n04.05.2023;06:00:01;1,6\n",
+        "book.xlsx": workbook(),
+        "rows.json": b'[{"time_s": 0, "x_mm": 1}, {"time_s": 1, "x_mm": 2.5}]',
     }
 
 

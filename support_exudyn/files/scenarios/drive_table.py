@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
 from decimal import Decimal
 from pathlib import Path
@@ -29,32 +30,44 @@ Turns = Callable[[str], bool | None]
 
 
 def read_drives(
-    path: Path, between: Between = TableDrive.between, turns: Turns | None = None
+    path: Path,
+    between: Between = TableDrive.between,
+    turns: Turns | None = None,
+    rate: float | None = None,
 ) -> dict[str, TableDrive]:
     """The drives of a table by the names of its columns.
 
     A first line such as `time_s,front_column_mm` names the columns with their units, lengths, or angles for
     cranks; every further line is a point. It is read as any table is, see `read_series`, but its times have to
     increase, and each column has a number at every time, 0 at the first. turns: of a name, whether the driven
-    part turns; None: it is not known.
+    part turns; None: it is not known. rate: samples per second [Hz] of a table without times. What was assumed
+    of the table is warned of.
 
     Raises InputError that names file and column; OSError if the file cannot be read.
     """
-    file = read_series(path)
-    if file.notes:
-        raise InputError(f"{path}: {file.notes[0]} Allowed: increasing times, and a unit in every title")
+    file = read_series(path, rate=rate)
+    if file.changes:
+        raise InputError(f"{path}: {file.changes[0]} Allowed: increasing times")
+    for note in file.notes:
+        warnings.warn(f"{path}: {note}", stacklevel=2)
     return {
         name: _drive(path, one, between, None if turns is None else turns(name))
         for name, one in file.series.items()
     }
 
 
-def one_drive(path: Path, column: str | None, between: Between, turning: bool | None = None) -> TableDrive:
+def one_drive(
+    path: Path,
+    column: str | None,
+    between: Between,
+    turning: bool | None = None,
+    rate: float | None = None,
+) -> TableDrive:
     """The drive of a column of a file, or of the only one that it has. Raises as `read_drives` does.
 
-    turning: whether it has to be an angle; None: it may be.
+    turning: whether it has to be an angle; None: it may be. rate: as of `read_drives`.
     """
-    drives = read_drives(path, between, lambda name: turning if column in (None, name) else None)
+    drives = read_drives(path, between, lambda name: turning if column in (None, name) else None, rate)
     if column is None and len(drives) == 1:
         return next(iter(drives.values()))
     if column is None:

@@ -24,8 +24,8 @@ from support_exudyn.model.machine import Machine
 from support_exudyn.model.pins import IdealPin, Pin
 from user_forces.values.names import unknown
 from user_forces.values.sourced import SourcedNumber
-from user_forces.values.units import ANGLES, LENGTHS
-from user_forces.values.value import InputError, Value, value
+from user_forces.values.units import ANGLES, LENGTHS, Hertz
+from user_forces.values.value import InputError, Positive, Value, value
 
 S = TypeVar("S", bound=ShortContact)
 
@@ -41,10 +41,12 @@ class DrivesFile(Value):
         table: path of the file, from the folder of the scenario's file on; each of its columns drives the part
             of the machine by its name.
         between: how the points are joined: "smooth", or "linear", at constant speeds that jump.
+        rate: rows per second of a table without times [Hz], > 0.
     """
 
     table: str
     between: Literal["smooth", "linear"] = TableDrive.between
+    rate: Hertz[Positive] | None = None
 
 
 @value
@@ -211,7 +213,7 @@ class ShortForms:
                 return FAILED
             turning = self._turning(place)
             turns = next(iter(turning)) if len(turning) == 1 else None
-            read = partial(one_drive, self.folder / file.table, file.column, file.between, turns)
+            read = partial(one_drive, self.folder / file.table, file.column, file.between, turns, file.rate)
             return _read(read, reader.faults, file.table, (*place, "table"))
         kinds = ", ".join(GroupShape((Drive,)).kinds)
         reader.faults.add(
@@ -279,7 +281,7 @@ class ShortForms:
         file = reader.value(DrivesFile, own, ("drives",))
         if file is FAILED:
             return {"": FAILED}
-        read = partial(read_drives, self.folder / file.table, file.between, self._turns)
+        read = partial(read_drives, self.folder / file.table, file.between, self._turns, file.rate)
         found = _read(read, reader.faults, file.table, ("drives", "table"))
         if found is FAILED:
             return {"": FAILED}

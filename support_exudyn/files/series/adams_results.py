@@ -13,7 +13,6 @@ Step maps as of genuine files of Adams 2015 to 2022, and of VI-CarRealTime.
 
 from __future__ import annotations
 
-import re
 import xml.etree.ElementTree as ElementTree
 from array import array
 from collections.abc import Iterator
@@ -25,7 +24,7 @@ import numpy as np
 from support_exudyn.files.free_memory import available
 from support_exudyn.files.series.columns import Column, series_file
 from support_exudyn.files.series.named_series import Asked, SeriesFile
-from support_exudyn.files.series.units import as_pint_writes, is_unit, split_title
+from support_exudyn.files.series.units import read_unit, split_title
 from user_forces.values.value import InputError, short
 
 SKIPPED = "input"  # the step of the model as it was given, before it is assembled
@@ -216,28 +215,6 @@ def read_adams_results(path: Path, asked: Asked) -> SeriesFile:
     return series_file(path, "ADAMS result file", [(columns[0], columns[1:])], asked, found.notes)
 
 
-# --- units as ADAMS writes them, in words that pint reads ---
-
-WORD = re.compile(r"[A-Za-z_]+")
-NAMES = {  # those that pint does not know, or reads otherwise
-    "pound_mass": "pound", "kpound_mass": "kilopound", "ounce_mass": "ounce", "kpound_force": "kilopound_force",
-    "knewton": "kilonewton", "kgf": "kilogram_force", "hz": "hertz", "angular_minutes": "arcminute",
-    "angular_seconds": "arcsecond", "kw": "kilowatt", "kwh": "kilowatt_hour", "volt": "volt",
-}  # fmt: skip
-
-
 def adams_unit(text: str) -> str | None:
     """The unit of `newton-meter`, `inch/sec**2` or `no_units`; None if there is none, or pint reads none."""
-    text = text.strip()
-    if not text:
-        return None
-    found = WORD.sub(lambda word: _word(word.group()), text)
-    return as_pint_writes(found) if is_unit(found) else None
-
-
-def _word(word: str) -> str:
-    if word in NAMES:
-        return NAMES[word]
-    if word.lower() in NAMES:
-        return NAMES[word.lower()]
-    return word.lower() if word.lower() != word and not is_unit(word) else word
+    return read_unit(text)[0] if text.strip() else None

@@ -1,29 +1,67 @@
-"""Series from columns of numbers: times in seconds that increase, and what is told of how they came so."""
+"""Series from columns of numbers: times in seconds that increase, and notes on how they came so."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
 
 from support_exudyn.files.series.named_series import Asked, NamedSeries, SeriesFile
-from support_exudyn.files.series.units import as_pint_writes, is_time, scaled, unit_checked
+from support_exudyn.files.series.stamps import DAY, Stamps
+from support_exudyn.files.series.units import is_called_time, is_time, read_unit, scaled, unit_checked
 from user_forces.values.value import InputError, cleaned, short
 
 Numbers = npt.NDArray[np.float64]
-MANY = 5  # names that are told
+Place = Callable[[int], str]
+MANY = 5  # names that are shown
+SERIAL_DAYS, MATLAB_DAYS = (20_000.0, 80_000.0), (700_000.0, 800_000.0)  # years 1954 to 2119, 1916 to 2190
+EPOCH = (9e8, 4e9)  # [s] since 1970: years 1998 to 2096
+EPOCHS = {"s": 1.0, "ms": 1e3, "us": 1e6, "ns": 1e9}  # ticks in a second
+DATED = ("date", "datum", "fecha", "日期", "时间", "timestamp", "time stamp")  # in names of serial days
 
 
 @dataclass(frozen=True)
 class Column:
-    """A column of a table: its name, unit (None: the table gives none) and values (n,)."""
+    """A column of a table: its name, unit (None: the table gives none) and values (n,); or stamps of times."""
 
     name: str
     unit: str | None
     values: Numbers
+    stamps: Stamps | None = None
+
+
+def row_number(row: int) -> str:
+    """Where a row stands, by its number from 1 on."""
+    return f"row {row + 1}"
+
+
+@dataclass(frozen=True)
+class Table:
+    """Columns as they stand in a file, whose times have not been determined.
+
+    path, kind: of the file. columns: of numbers and stamps. others: names of columns of words.
+    notes: on how it was read. intervals: between rows [s] that the file's header gives, by its lines.
+    place: where a row stands, as "line 7".
+    """
+
+    path: Path
+    kind: str
+    columns: Sequence[Column]
+    others: Sequence[str] = ()
+    notes: Sequence[str] = ()
+    intervals: Mapping[str, float] = field(default_factory=dict)
+    place: Place = row_number
+
+
+def first_names(names: Iterable[str]) -> str:
+    """The first of some names, quoted."""
+    return ", ".join(map(short, [*names][:MANY]))
+
+
+# --- which columns are times ---
 
 
 def is_named_time(name: str) -> bool:
@@ -43,20 +81,173 @@ def named_times(names: Sequence[tuple[str, str | None]]) -> list[int]:
     return named or [n for n in brief if names[n][0] == "t"] or brief
 
 
-def places_of_times(columns: Sequence[Column], asked: Asked) -> tuple[list[int], list[str]]:
-    """Which columns are times, and what is told of it.
+def table_series(table: Table, asked: Asked) -> SeriesFile:
+    """The series of a table over its times.
 
-    Those that are named so; else the first if its name ends so; else the only one that is in a unit of time.
+    Times are columns of that name; else date-time stamps; else the only column in a unit of time; else days or
+    seconds of a calendar; else the rate that is asked for or that the header gives. Of several columns of times
+    each is of the columns to its right, up to the next.
+
+    Raises InputError if there are no times or they can be read in two ways.
     """
-    if named := named_times([(one.name, one.unit) for one in columns]):
-        return named, []
-    if columns and is_named_time(columns[0].name):
-        return [0], []
-    units = [asked.unit(one.name, one.unit) for one in columns]
-    found = [n for n, unit in enumerate(units) if unit is not None and is_time(unit)]
-    if len(found) != 1:
-        return [], []
-    return found, [f"Column {columns[found[0]].name!r} is taken for the times: it alone is in a unit of time."]
+    numbers = [one for one in table.columns if one.stamps is None]
+    units = [asked.unit(one.name, one.unit) for one in numbers]
+    named = named_times([(one.name, unit) for one, unit in zip(numbers, units, strict=True)])
+    if not named and numbers and is_named_time(numbers[0].name):
+        named = [0]
+    in_time = [n for n, unit in enumerate(units) if unit is not None and is_time(unit)]
+    is_known = bool(named) and units[named[0]] is not None
+    is_known = is_known or (len(in_time) == 1 and is_called_time(numbers[in_time[0]].name))
+    rated = _of_rate(table, numbers, asked.rate) if not is_known else None
+    stamped = None if is_known else _of_stamps(table) or (None if in_time else _of_calendar(numbers, units))
+    note = ""
+    if stamped is not None and (repeated := _repeated(stamped[0].values)) is not None:
+        if rated is None:
+            raise InputError(
+                f"{table.path}: {table.place(repeated)}, column {short(stamped[0].name)}: at least every other "
+                "row repeats the time before it; allowed: stamps with fractions of a second, or a rate, such "
+                "as --rate 10 [Hz]"
+            )
+        stamped = None
+    if named and (units[named[0]] is not None or (stamped is None and rated is None)):
+        groups, note = _groups(table.path, numbers, named)
+    elif len(in_time) == 1 and stamped is None:
+        groups, _ = _groups(table.path, numbers, in_time)
+        note = f"Column {numbers[in_time[0]].name!r} is taken for the times: it alone is in a unit of time."
+    elif stamped is not None or rated is not None:
+        times, note = stamped or rated or (numbers[0], "")
+        groups = [(times, [one for one in numbers if one.name != times.name])]
+    elif len(numbers) > 1 and numbers[0].name == "column_1":
+        groups, note = _groups(table.path, numbers, [0])
+    else:
+        others = f", its words {first_names(table.others)}" if table.others else ""
+        raise InputError(
+            f"{table.path}: has no times; allowed: a column time_s, time_ms or 'time [s]' of numbers, stamps "
+            "such as 2023-05-04 06:00, or a rate in the header or by --rate 1000 [Hz]; its numbers are "
+            f"{first_names(one.name for one in numbers)}{others}"
+        )
+    notes = [*table.notes, note]
+    used = groups[0][0].name
+    others_left = [*table.others, *(one.name for one in table.columns if one.stamps and one.name not in used)]
+    if others_left:
+        notes.append(f"Columns that are no numbers are left out: {first_names(others_left)}.")
+    if asked.rate and groups[0][0] is not (rated and rated[0]):
+        notes.append(f"The rate of {asked.rate:g} Hz is not used: column {groups[0][0].name!r} has the times.")
+    return series_file(table.path, table.kind, groups, asked, notes, table.place)
+
+
+def _groups(
+    path: Path, columns: Sequence[Column], times: Sequence[int]
+) -> tuple[list[tuple[Column, list[Column]]], str]:
+    """Columns of times, each with the columns that are over it, and a note if there are several."""
+    if len(times) == 1:
+        return [(columns[times[0]], [one for n, one in enumerate(columns) if n != times[0]])], ""
+    if times[0] != 0:
+        raise InputError(
+            f"{path}: column {short(columns[0].name)}: stands before the first of {len(times)} columns of "
+            "times; allowed: after that of its own"
+        )
+    ends = [*times[1:], len(columns)]
+    groups = [(columns[start], [*columns[start + 1 : end]]) for start, end in zip(times, ends, strict=True)]
+    return groups, f"{len(times)} columns of times; each is of the columns to its right, up to the next."
+
+
+def _of_stamps(table: Table) -> tuple[Column, str] | None:
+    """Times [s] from the first of a table's stamps, and a note; None if it has none that change.
+
+    A column of dates with clocks goes before a pair, a date and a clock, and that before clocks alone, which
+    may run over midnight, and dates alone.
+    """
+    found = [(one.name, one.stamps) for one in table.columns if one.stamps is not None]
+    whole = [one for one in found if one[1].has_date and one[1].period]
+    dates = [one for one in found if one[1].has_date and not one[1].period]
+    clocks = [one for one in found if not one[1].has_date]
+    for one in (whole or clocks or dates)[:1] + (dates[:1] if clocks and not whole else []):
+        if (wrong := one[1].wrong) is not None:
+            raise InputError(
+                f"{table.path}: {table.place(wrong[0])}, column {short(one[0])}: {short(wrong[1])}; allowed: a "
+                "date and time as before, or nothing"
+            )
+    if whole:
+        name, stamps = whole[0]
+        seconds, note = stamps.seconds, stamps.note
+    elif dates and clocks:
+        name = f"{dates[0][0]} {clocks[0][0]}"
+        seconds, note = dates[0][1].seconds + clocks[0][1].seconds, dates[0][1].note
+    elif clocks:
+        (name, stamps), note = clocks[0], ""
+        there = np.flatnonzero(np.isfinite(stamps.seconds))
+        seconds = stamps.seconds.copy()
+        turns = np.cumsum(np.diff(seconds[there], prepend=seconds[there[:1]]) < -0.5 * stamps.period)
+        seconds[there] += stamps.period * turns
+        if turns.size and turns[-1]:
+            note = f"Column {name!r} runs over midnight." if stamps.period == DAY else ""
+    elif dates and np.ptp(dates[0][1].seconds[np.isfinite(dates[0][1].seconds)]) > 0.0:
+        name, stamps = dates[0]
+        seconds, note = stamps.seconds, stamps.note
+    else:
+        return None
+    return Column(
+        name, "s", _from_first(seconds)
+    ), f"Times are counted from the first stamp of {name!r}. {note}"
+
+
+def _from_first(seconds: Numbers) -> Numbers:
+    there = np.flatnonzero(np.isfinite(seconds))
+    return seconds - seconds[there[0]] if there.size else seconds
+
+
+def _of_calendar(columns: Sequence[Column], units: Sequence[str | None]) -> tuple[Column, str] | None:
+    """Times [s] from the first of a column without unit that has days or seconds of a calendar, and a note."""
+    for column, unit in zip(columns, units, strict=True):
+        there = column.values[np.isfinite(column.values)]
+        is_dated = any(word in column.name.casefold() for word in DATED)
+        if unit is not None or not there.size or not (is_dated or is_called_time(column.name)):
+            continue
+        low, high = float(there.min()), float(there.max())
+        said, ticks = "", 0.0
+        for days, what in ((SERIAL_DAYS, "a spreadsheet's calendar"), (MATLAB_DAYS, "MATLAB's calendar")):
+            if is_dated and days[0] <= low and high <= days[1]:
+                said, ticks = f"days of {what}", 1.0 / DAY
+        for name, per_second in EPOCHS.items():
+            if EPOCH[0] * per_second <= low and high <= EPOCH[1] * per_second:
+                said, ticks = f"{name} since 1970", per_second
+        if said:
+            seconds = np.round(_from_first(column.values) / ticks, 9 if ticks >= 1.0 else 6)
+            return Column(
+                column.name, "s", seconds
+            ), f"Column {column.name!r} is read as {said}, from the first."
+    return None
+
+
+def _of_rate(table: Table, columns: Sequence[Column], rate: float | None) -> tuple[Column, str] | None:
+    """Times [s] at a rate [Hz] that was asked for, or that the header gives, and a note; None: there is none.
+
+    Raises InputError if the header gives two.
+    """
+    given = sorted(table.intervals, key=lambda line: table.intervals[line])
+    if not columns or not (rate or given):
+        return None
+    if given and not rate and table.intervals[given[-1]] > 1.001 * table.intervals[given[0]]:
+        raise InputError(
+            f"{table.path}: has no times, and its header gives two rates, {short(given[0])} and "
+            f"{short(given[-1])}; allowed: one, or --rate [Hz]"
+        )
+    rows = np.arange(columns[0].values.size, dtype=np.float64)
+    if rate:
+        return Column("time at the rate", "s", rows / rate), f"Times are of the rate {rate:.9g} Hz, from 0 s."
+    interval = table.intervals[given[0]]
+    note = f"Times are of the header's rate, {1.0 / interval:.9g} Hz ({given[0]:.60}), from 0 s."
+    return Column("time at the rate", "s", rows * interval), note
+
+
+def _repeated(times: Numbers) -> int | None:
+    """The first row that repeats the time before it, if at least every other one does."""
+    repeats = np.diff(times) == 0.0
+    return int(np.argmax(repeats)) + 1 if repeats.sum() * 2 >= max(times.size, 2) else None
+
+
+# --- series of columns over times ---
 
 
 def series_file(
@@ -65,44 +256,51 @@ def series_file(
     groups: Iterable[tuple[Column, Iterable[Column]]],
     asked: Asked,
     notes: Iterable[str] = (),
+    place: Place = row_number,
 ) -> SeriesFile:
     """Series from columns over their times.
 
     Rows without a time are left out. Infinite values count as not known. Rows are sorted by time; of rows of
-    one time the last of the file stays. All that is told in a note.
+    one time the last of the file stays. A second column of a name is called NAME#2. A note reports each.
 
     Arguments:
         path, kind, notes: of the file.
         groups: a column of times each, with the columns that have a value at each of them.
         asked: units of columns without one, and the names that are wanted.
+        place: where a row stands, for notes.
 
-    Raises InputError if there are no times, if they have no unit of time, or if two columns have one name.
+    Raises InputError if there are no times, or if they have no unit of time.
     """
     series: dict[str, NamedSeries] = {}
-    told = [*notes]
+    known: dict[str, int] = {}
+    told, changes = [*notes], list[str]()
     for times, columns in groups:
-        time, order, said = _increasing(path, times, asked)
-        told += [one for one in said if one not in told]
+        time, order, said = _increasing(path, times, asked, place)
+        changes += [one for one in said if one not in changes]
         for column in columns:
-            if not asked.wants(column.name):
-                continue
-            if column.name in series:
-                raise InputError(
-                    f"{path}: column {short(column.name)}: stands twice; allowed: a title for each column"
+            name = column.name
+            known[name] = known.get(name, 0) + 1
+            if known[name] > 1:
+                name = f"{name}#{known[name]}"
+                told.append(
+                    f"Several columns are called {column.name!r}; the later ones are {column.name}#2 and so on."
                 )
+            if not asked.wants(name):
+                continue
             values = column.values if order is None else column.values[order]
             if endless := int(np.isinf(values).sum()):
                 values = np.where(np.isinf(values), np.nan, values)
-                told.append(f"{column.name}: infinite values count as not known: {endless}.")
-            series[column.name] = NamedSeries(column.name, _unit(path, column, asked), time, values)
+                told.append(f"{name}: infinite values count as not known: {endless}.")
+            series[name] = NamedSeries(name, _unit(path, column, asked), time, values)
+    told = list(dict.fromkeys(cleaned(one).strip() for one in (*told, *changes) if one.strip()))
     if not series:
-        raise InputError(" ".join(cleaned(one) for one in (f"{path}: {_nothing(asked)}.", *told))[:-1])
-    return SeriesFile(path, kind, series, tuple(cleaned(one) for one in told))
+        raise InputError(" ".join((f"{path}: {_nothing(asked)}.", *told))[:-1])
+    return SeriesFile(path, kind, series, tuple(told), tuple(changes))
 
 
 def _nothing(asked: Asked) -> str:
     if asked.names:
-        return f"has no series {', '.join(map(short, asked.names[:MANY]))}; allowed: its own names"
+        return f"has no series {first_names(asked.names)}; allowed: its own names"
     return "has times and nothing else; allowed: a column of numbers beside them"
 
 
@@ -110,13 +308,13 @@ def _unit(path: Path, column: Column, asked: Asked) -> str | None:
     unit = asked.unit(column.name, column.unit)
     if unit is None or unit == column.unit:
         return unit
-    return as_pint_writes(unit_checked(unit, f"units, {column.name} of {path}"))
+    return read_unit(unit)[0] or unit_checked(unit, f"units, {column.name} of {path}")
 
 
 def _increasing(
-    path: Path, column: Column, asked: Asked
+    path: Path, column: Column, asked: Asked, place: Place
 ) -> tuple[Numbers, npt.NDArray[np.intp] | None, list[str]]:
-    """Times [s] that increase, the rows that they are of (None: all as they are), and what is told of it."""
+    """Times [s] that increase, the rows that they are of (None: all as they are), and notes on it."""
     unit = _unit(path, column, asked)
     where = f"{path}: times, column {short(column.name)}"
     if unit is None:
@@ -128,7 +326,7 @@ def _increasing(
         raise InputError(f"{where}: are in {short(unit)}; allowed: a unit of time, such as s, ms, min")
     time = scaled(column.values, unit, "s", where)
     if np.isinf(time).any():
-        raise InputError(f"{where}: row {int(np.argmax(np.isinf(time))) + 1} is infinite; allowed: numbers")
+        raise InputError(f"{where}: {place(int(np.argmax(np.isinf(time))))} is infinite; allowed: numbers")
     there = np.isfinite(time)
     if not there.any():
         raise InputError(f"{where}: has no numbers; allowed: one or more")
@@ -136,13 +334,22 @@ def _increasing(
         return time, None, []
     told = []
     if missing := int((~there).sum()):
-        told.append(f"Rows without a time are left out: {missing}.")
+        told.append(
+            f"Rows without a time are left out: {missing}, the first is {place(int(np.argmin(there)))}."
+        )
     order = np.flatnonzero(there)
-    if (np.diff(time[order]) < 0.0).any():
-        told.append(f"The times of column {column.name!r} go back; rows are sorted by time.")
+    steps = np.diff(time[order])
+    if (steps < 0.0).any():
+        first = place(int(order[np.argmax(steps < 0.0) + 1]))
+        told.append(f"The times of column {column.name!r} go back at {first}; rows are sorted by time.")
         order = order[np.argsort(time[order], kind="stable")]
-    last = np.append(np.diff(time[order]) > 0.0, True)
+        steps = np.diff(time[order])
+    last = np.append(steps > 0.0, True)
     if repeated := int((~last).sum()):
-        told.append(f"Times are repeated; of rows of one time the last stays, {repeated} are left out.")
+        first = place(int(order[np.argmin(last)]))
+        told.append(
+            f"Times are repeated; of rows of one time the last stays, {repeated} are left out, the first is "
+            f"{first}."
+        )
     order = order[last]
     return time[order], order, told

@@ -18,7 +18,7 @@ from support_exudyn.files.free_memory import available
 from support_exudyn.files.series.columns import Column, Numbers, series_file
 from support_exudyn.files.series.named_series import Asked, SeriesFile
 from support_exudyn.files.series.table_layout import TableLayout
-from support_exudyn.files.series.text_tables import lines_of, numbers_of, text_of
+from support_exudyn.files.series.text_tables import columns_of, lines_of, text_of
 from support_exudyn.files.whole_file import contents
 from user_forces.values.value import InputError, short
 
@@ -55,14 +55,14 @@ def read_exudyn_text(path: Path, asked: Asked) -> SeriesFile:
         header.append(line)
     sensor = "sensor output file" in header[0].lower() if header else False
     names = _of_sensor(path, header) if sensor else _of_solution(path, header)
-    titles = tuple((name, None) for name in ("time", *names))
-    how = TableLayout(",", ".", len(header), len(titles), titles, ())
+    seconds = "s" if any(OURS in line for line in header) else None
+    titles = (("time", seconds), *((name, None) for name in names))
+    how = TableLayout(",", ".", len(header), titles, ("number",) * len(titles))
     if not data.rstrip().count(b"\n") + 1 > len(header):
         raise InputError(f"{path}: has no rows; allowed: one or more below its comments")
     if not sensor and FINISHED not in data:
         notes.append("There is no line '#simulation finished': the run was cut off, or the file was.")
-    seconds = "s" if any(OURS in line for line in header) else None
-    columns = _columns(names, seconds, numbers_of(path, data, how))
+    columns = columns_of(path, data, how)
     kind = "sensor of Exudyn" if sensor else "solution of Exudyn"
     return series_file(path, kind, [(columns[0], columns[1:])], asked, notes)
 

@@ -36,12 +36,14 @@ class SeriesFile:
     series: by their names.
     notes: what a reader of the numbers has to know, a sentence each: rows that were sorted, times that were
         repeated, the analysis that was taken of several.
+    changes: those of the notes that tell of rows that were left out or sorted.
     """
 
     path: Path
     kind: str
     series: Mapping[str, NamedSeries]
     notes: tuple[str, ...] = ()
+    changes: tuple[str, ...] = ()
 
 
 # --- what is asked of a reader ---
@@ -60,12 +62,16 @@ class Asked:
     units: what unit a column without one has, by patterns of names as in a shell; the first that
         matches counts.
     analysis: the name of one, of several in a file; None: the first.
+    sheet: likewise, of a workbook; None: the first with a table.
+    rate: samples per second [Hz] of a file without times; None: it is not known.
     names: patterns of the series that are wanted; all if there are none.
     progress: receives the share that is read.
     """
 
     units: Mapping[str, str] = field(default_factory=dict)
     analysis: str | None = None
+    sheet: str | None = None
+    rate: float | None = None
     names: Sequence[str] = ()
     progress: Progress = silent
 

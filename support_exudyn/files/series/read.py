@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,15 +15,26 @@ from support_exudyn.files.series.exudyn_files import (
     read_exudyn_binary,
     read_exudyn_text,
 )
+from support_exudyn.files.series.labview import is_labview, read_labview
 from support_exudyn.files.series.matlab import is_matlab, read_matlab
 from support_exudyn.files.series.named_series import Asked, Progress, SeriesFile, silent
 from support_exudyn.files.series.own_runs import is_exported, is_run, read_exported, read_own_run
-from support_exudyn.files.series.parquet import is_parquet, read_parquet
-from support_exudyn.files.series.text_tables import UTF_16, read_text_table
+from support_exudyn.files.series.text_tables import is_text, read_text_table
+from support_exudyn.files.series.typed_tables import (
+    is_feather,
+    is_json,
+    is_parquet,
+    is_workbook,
+    read_feather,
+    read_json,
+    read_parquet,
+    read_workbook,
+)
 from support_exudyn.files.whole_file import check_is_file, missing_file
 from user_forces.values.value import InputError, short
 
 HEAD = 4096  # bytes by which a format is found
+PLAIN = (read_text_table, read_adams_results)  # which many files seem to be
 NO_UNITS: Mapping[str, str] = {}
 
 
@@ -36,24 +48,38 @@ class SeriesFormat:
 
 
 def _is_xml(head: bytes) -> bool:
-    text = head.decode("utf-16" if head.startswith(UTF_16) else "utf-8-sig", "replace")
-    return text.lstrip().startswith("<")
+    return head.replace(b"\0", b"").lstrip(b"\xef\xbb\xbf\xff\xfe \t\r\n").startswith(b"<")
 
 
-def _is_text(head: bytes) -> bool:
-    return bool(head.strip()) and (b"\0" not in head or head.startswith(UTF_16))
-
+UNPACKED, WORKBOOK = "the file that it holds, unpacked", "the table saved as .xlsx or CSV"
+REFUSED = (  # how files begin that are no tables, what they are, and what to do
+    (rb"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1", "an old workbook of Excel (.xls)", WORKBOOK),
+    (rb"TDSm", "a TDMS file of LabVIEW", "its channels as CSV, as npTDMS and LabVIEW write it, or .lvm"),
+    (rb"\x1f\x8b", "a compressed file (gzip)", UNPACKED),
+    (rb"BZh|\xfd7zXZ|7z\xbc\xaf|Rar!|\x28\xb5\x2f\xfd", "a compressed file", UNPACKED),
+    (rb"PK\x03\x04", "an archive (zip)", f"{UNPACKED}; of spreadsheets CSV"),
+    (rb"%PDF", "a PDF document", "the table as CSV"),
+    (rb"\x93NUMPY", "an array of NumPy", "numpy.savetxt with a line of titles"),
+    (rb"MDF |UnFinMF", "a file of measured data of ASAM (MDF)", "its channels as CSV or .mat"),
+    (rb"SQLite format 3", "a database of SQLite", "the table as CSV"),
+    (rb"(?si)[^<]{0,9}<(!doctype html|html|table|meta|head|body|style)\b", "a page of HTML", WORKBOOK),
+    (rb"(?s)[^<]{0,9}<.{0,900}schemas-microsoft-com:office:spreadsheet", "a workbook as XML", WORKBOOK),
+)  # fmt: skip
 
 FORMATS = (  # the first that fits is taken
     SeriesFormat("run of this program", is_run, read_own_run),
     SeriesFormat("channels that `export --to hdf5` has written", is_exported, read_exported),
     SeriesFormat("MATLAB file (.mat)", is_matlab, read_matlab),
     SeriesFormat("Parquet file", is_parquet, read_parquet),
+    SeriesFormat("Feather file", is_feather, read_feather),
+    SeriesFormat("workbook of Excel (.xlsx)", is_workbook, read_workbook),
     SeriesFormat("binary solution of Exudyn", is_exudyn_binary, read_exudyn_binary),
     SeriesFormat("ADAMS result file (.res)", _is_xml, read_adams_results),
+    SeriesFormat("LabVIEW measurement file (.lvm)", is_labview, read_labview),
+    SeriesFormat("JSON file", is_json, read_json),
     SeriesFormat("ADAMS request file (.req)", is_request_file, read_adams_requests),
     SeriesFormat("sensor or solution of Exudyn as text", is_exudyn_text, read_exudyn_text),
-    SeriesFormat("table of text (CSV)", _is_text, read_text_table),
+    SeriesFormat("table of text (CSV)", is_text, read_text_table),
 )
 
 
@@ -62,6 +88,8 @@ def read_series(
     *,
     units: Mapping[str, str] = NO_UNITS,
     analysis: str | None = None,
+    sheet: str | None = None,
+    rate: float | None = None,
     names: Sequence[str] = (),
     progress: Progress = silent,
 ) -> SeriesFile:
@@ -71,6 +99,8 @@ def read_series(
         path: of the file.
         units: what unit a column without one has, by patterns of names as in a shell.
         analysis: of an ADAMS result file, its name; None: the first.
+        sheet: of a workbook, its name; None: the first with a table.
+        rate: samples per second [Hz] of a file without times.
         names: patterns of the series that are wanted, all if there are none. Of large result files only those
             take memory.
         progress: receives the share that is read.
@@ -86,13 +116,19 @@ def read_series(
         head = file.read(HEAD)
     if not head:
         raise InputError(f"{path}: is empty; allowed: {known_formats()}")
-    asked = Asked(units, analysis, names, progress)
-    for one in FORMATS:
-        if one.fits(head):
-            if analysis is not None and one.read is not read_adams_results:
-                raise InputError(f"{path}: analysis {short(analysis)}: a {one.name} has none; allowed: none")
-            return one.read(path, asked)
-    raise InputError(f"{path}: is of no kind that can be read; allowed: {known_formats()}")
+    if rate is not None and not 0.0 < rate < float("inf"):
+        raise InputError(f"{path}: rate = {rate}: allowed: > 0, samples per second [Hz]")
+    asked = Asked(units, analysis, sheet, rate, names, progress)
+    kind = next((one for one in FORMATS if one.fits(head)), None)
+    for begin, what, instead in REFUSED if kind is None or kind.read in PLAIN else ():
+        if re.match(begin, head):
+            raise InputError(f"{path}: is {what}, which is not read; allowed: {instead}")
+    if kind is None:
+        raise InputError(f"{path}: is of no kind that can be read; allowed: {known_formats()}")
+    for name, value, reader in (("analysis", analysis, read_adams_results), ("sheet", sheet, read_workbook)):
+        if value is not None and kind.read is not reader:
+            raise InputError(f"{path}: {name} {short(value)}: a {kind.name} has none; allowed: none")
+    return kind.read(path, asked)
 
 
 def known_formats() -> str:

@@ -2,31 +2,34 @@
 
 from __future__ import annotations
 
-import csv
 import re
 from collections import Counter
-from collections.abc import Collection, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import pairwise
 from pathlib import Path
 
-from support_exudyn.files.series.units import as_pint_writes, is_unit, split_title
-from user_forces.values.value import InputError, short
+from support_exudyn.files.series.columns import first_names
+from support_exudyn.files.series.table_titles import (
+    COMMENTS,
+    PYTHON,
+    SEPARATORS,
+    Titles,
+    is_time_title,
+    items,
+    kind_of,
+    stated_intervals,
+)
+from user_forces.values.value import InputError
 
-BLANKS = " "  # any number of blanks and tabs
-SEPARATORS = ("\t", ";", ",", BLANKS)
-SAID = {"\t": "tabs", ";": "';'", ",": "commas", BLANKS: "blanks"}
-COMMENT = re.compile(r"\s*(#|%|!|//)")
-MISSING = ("", "nan", "NaN", "NAN", "NA", "N/A", "n/a", "null", "NULL", "-nan", "#N/A")  # no number
-NUMBERS = {
-    ".": re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eEdD][+-]?\d+)?|[+-]?(inf|Inf|INF|infinity)", re.ASCII),
-    ",": re.compile(r"[+-]?(\d+(,\d+)?|,\d+)([eEdD][+-]?\d+)?", re.ASCII),
-}
-GROUPED = re.compile(r"[+-]?[1-9]\d{0,2}(,\d{3})+", re.ASCII)  # 1,234: a thousand, or one and a bit
-WORDS = re.compile(r'"[^"]*"|\S+')  # that blanks separate
-FEW = 6  # names that are told
-LINES, LETTERS = 400, 1_000_000  # that are looked at
-ALLOWED = "rows of two or more numbers below a line of titles such as time_s,tip.x_mm"
-Rows = tuple[int, str, bool]  # items of each, what separates them, whether all end with that
+GROUPED = re.compile(r"[+-]?[1-9][0-9]{0,2}([.,])[0-9]{3}")  # 1,234: a thousand, or one and a bit
+MANY_GROUPS = re.compile(
+    r"[+-]?[0-9]{1,3}([., '])[0-9]{3}(\1[0-9]{3})+|[+-]?[0-9]{1,3}([.,][0-9]{3})+[.,][0-9]+"
+)
+BEGINS = re.compile(r"[\s\"]*[-+.,]?[0-9]")  # rows, but for those of words first
+FEW = 2  # lines of numbers, such as sizes, that may stand above the titles
+LINES, LETTERS = 400, 1_000_000  # by which a layout is determined
+ALLOWED = "rows of numbers below a line of titles such as time_s,tip.x_mm"
 
 
 @dataclass(frozen=True)
@@ -34,232 +37,189 @@ class TableLayout:
     """How a table is written.
 
     separator: between items. decimal: "." or ",". first: the index of the first line of numbers.
-    width: items of a row. titles: a name and a unit (None: it has none) for each item. notes: what is told.
-    words: which items are no numbers, as of dates and remarks.
+    titles: a name and a unit (None: it has none) for each item. kinds: "number", "stamp" or "word" for each.
+    notes: on what was assumed. intervals: between rows [s], that the lines above give, by those lines.
     """
 
     separator: str
     decimal: str
     first: int
-    width: int
     titles: tuple[tuple[str, str | None], ...]
-    notes: tuple[str, ...]
-    words: frozenset[int] = frozenset()
+    kinds: tuple[str, ...]
+    notes: tuple[str, ...] = ()
+    intervals: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def comment(self) -> str:
+        """The pattern by which lines of comments begin."""
+        return COMMENTS[self.separator]
 
     def items(self, line: str) -> list[str]:
         """The items of a line."""
         return items(line, self.separator)
 
-    def number(self, item: str) -> float | None:
-        """The number that an item is, NaN where it says that there is none; None if it is no number."""
-        if item in MISSING:
-            return float("nan")
-        if not NUMBERS[self.decimal].fullmatch(item):
-            return None
-        return float(item.replace(",", ".").replace("d", "e").replace("D", "e"))
+    def is_row(self, line: str) -> bool:
+        """Whether a line is a row: numbers and stamps where they belong, at least one of them."""
+        return _is_row(self.items(line), self.kinds, self.decimal)
 
 
-def items(line: str, separator: str) -> list[str]:
-    """The items of a line, without blanks around them."""
-    if separator == BLANKS:
-        return [one.strip('"') for one in WORDS.findall(line)]
-    if '"' not in line:
-        return [one.strip() for one in line.split(separator)]
-    try:
-        return [one.strip() for one in next(csv.reader([line], delimiter=separator), [])]
-    except csv.Error:  # an item that is too long
-        return [line]
+def _is_row(found: Sequence[str], kinds: Sequence[str], decimal: str) -> bool:
+    if len(found) != len(kinds):
+        return False
+    own = [kind_of(item, decimal) for item in found]
+    fit = all(wanted == "word" or one in (wanted, "missing") for one, wanted in zip(own, kinds, strict=True))
+    return fit and any(one == wanted != "word" for one, wanted in zip(own, kinds, strict=True))
 
 
-def is_row(line: str, separator: str, decimal: str, words: Collection[int] = ()) -> int:
-    """How many items a row of numbers has, but for those that are words; 0 if it is none."""
-    found = items(line, separator)
-    number = NUMBERS[decimal]
-    wanted = [one for n, one in enumerate(found) if n not in words] if words else found
-    if len(found) < 2 or not all(one in MISSING or number.fullmatch(one) for one in wanted):
-        return 0
-    return len(found) if any(wanted) else 0
+# --- separators, decimals and kinds ---
 
 
-def _words(text: Sequence[str], separator: str, decimal: str, width: int) -> frozenset[int]:
-    """Which items of rows of a width are words: never a number, and not always missing."""
-    split = (items(line, separator) for line in text)
-    rows = [one for one in split if len(one) == width and any(NUMBERS[decimal].fullmatch(item) for item in one)]
-    kinds = ({_kind(one[n], decimal) for one in rows} for n in range(width))
-    return frozenset(n for n, found in enumerate(kinds) if "word" in found and "number" not in found)
+def _kinds(rows: Sequence[Sequence[str]], width: int, decimal: str) -> tuple[str, ...]:
+    """What the columns are: of numbers or stamps where at least as many items are as words."""
+    found = []
+    for n in range(width):
+        count = Counter(kind_of(row[n], decimal) for row in rows)
+        most = max(("number", "stamp"), key=lambda kind: count[kind])
+        found.append("word" if count["word"] > count[most] else most)
+    return tuple(found)
 
 
-def _kind(item: str, decimal: str) -> str:
-    if item in MISSING:
-        return "missing"
-    return "number" if NUMBERS[decimal].fullmatch(item) else "word"
+def _tried(lines: Sequence[str], separator: str, decimal: str) -> tuple[int, int, tuple[str, ...]]:
+    """How many rows there are if lines are separated so, how many columns are numbers, and what columns are."""
+    comment = re.compile(COMMENTS[separator])
+    split = [items(line, separator) for line in lines if line.strip() and not comment.match(line)]
+    score: Counter[int] = Counter()
+    for found in split:
+        numbers = sum(kind_of(one, decimal) in ("number", "stamp") for one in found)
+        score[len(found)] += numbers or (len(found) > 1 and LETTERS * any(map(is_time_title, found)))
+    for width, _ in score.most_common(3):
+        rows = [
+            one
+            for one in split
+            if len(one) == width and any(kind_of(i, decimal) in ("number", "stamp") for i in one)
+        ]
+        kinds = _kinds(rows, width, decimal)
+        fitting = [one for one in rows if _is_row(one, kinds, decimal)]
+        if width < 2 or not fitting or any(_is_split(item, decimal) for one in fitting for item in one):
+            continue
+        return len(fitting), sum(one != "word" for one in kinds), kinds
+    return 0, 0, ()
 
 
-def _written(text: Sequence[str]) -> tuple[int, str, str, frozenset[int]] | None:
-    """Items of a row, what separates them, what their decimals are, and which are words; None of no table.
-
-    Only if no row is of numbers alone, separators are looked for by which rows have words, too.
-    """
-    tried = [(one, decimal) for one in SEPARATORS for decimal in ".,"[: 1 if one == "," else 2]]
-    best: tuple[int, int, str, str] | None = None  # rows, items in each, separator, decimals
-    for separator, decimal in tried:
-        widths = Counter(filter(None, (is_row(line, separator, decimal) for line in text)))
-        if widths:
-            width, rows = widths.most_common(1)[0]
-            if best is None or rows > best[0]:
-                best = rows, width, separator, decimal
-    if best is not None:
-        _, width, separator, decimal = best
-        words = frozenset[int]() if separator == BLANKS else _words(text, separator, decimal, width)
-        return width, separator, decimal, words
-    found = [_with_words(text, *one) for one in tried if one[0] != BLANKS]
-    rows, _, (width, separator, decimal, words) = max(found, key=lambda one: one[:2])
-    return (width, separator, decimal, words) if rows else None
+def _is_split(item: str, decimal: str) -> bool:
+    """Whether an item is several numbers, so that something else separates items."""
+    parts = re.split(r"[\t;| ]+", item)
+    return (
+        len(parts) > 1
+        and kind_of(item, decimal) == "word"
+        and all(PYTHON[","].fullmatch(one) for one in parts if one)
+    )
 
 
-def _with_words(
-    text: Sequence[str], separator: str, decimal: str
-) -> tuple[int, int, tuple[int, str, str, frozenset[int]]]:
-    """How many rows of numbers and words there are, how many of their items are numbers, and how it is written.
+def _written(lines: Sequence[str], separators: Sequence[str]) -> tuple[str, str, tuple[str, ...]] | None:
+    """What separates items, what decimals are and what columns are; None of no table."""
+    quoted = any('"' in line for line in lines)
+    best, written = (0, 0.0), None
+    for separator in separators:
+        for decimal in ".," if separator != "," or quoted else ".":
+            rows, numbers, kinds = _tried(lines, separator, decimal)
+            score = (rows, numbers / max(len(kinds), 1))
+            if score > best and rows:
+                best, written = score, (separator, decimal, kinds)
+    single = {one: sum(kind_of(line.strip(), one) == "number" for line in lines) for one in ".,"}
+    decimal = max(single, key=lambda one: single[one])
+    by_comma = written is not None and written[0] == ","
+    above = [line for line in lines if not _is_pair(line) and not re.match(COMMENTS[","], line)]
+    alone = single[decimal] > best[0] or (by_comma and single[decimal] == best[0])
+    if alone and single[decimal] and not (by_comma and any("," in line for line in above)):
+        return ";", decimal, ("number",)  # a column without times
+    return written
 
-    An item that another separator could part is no word.
-    """
-    split = [items(line, separator) for line in text]
-    widths = Counter(len(one) for one in split if len(one) > 1)
-    others = "\t;".replace(separator, "")
-    width = widths.most_common(1)[0][0] if widths else 0
-    words = _words(text, separator, decimal, width)
-    rows = sum(is_row(line, separator, decimal, words) == width for line in text) if width else 0
-    if any(set(others) & set(item) for one in split if len(one) == width for item in one):
-        rows = 0
-    return rows, width - len(words), (width, separator, decimal, words)
+
+def _is_pair(line: str) -> bool:
+    """Whether a line is 1,5: a number, or two of them."""
+    return kind_of(line.strip(), ",") == "number"
 
 
-def layout(path: Path, lines: Sequence[str]) -> TableLayout:
+def layout(path: Path, lines: Sequence[str], separators: Sequence[str] = SEPARATORS) -> TableLayout:
     """How a table is written, from its first lines.
 
     Raises InputError if there are no rows of numbers, if they can be read in two ways, or if titles and rows
     do not fit each other.
     """
-    text = [(n, line) for n, line in enumerate(lines[:LINES]) if line.strip() and not COMMENT.match(line)]
-    if (written := _written([line for _, line in text])) is None:
+    intervals = stated_intervals([line for line in lines[:LINES] if not BEGINS.match(line)])
+    lines = ["" if line.strip() in intervals else line for line in lines[:LINES]]
+    if (written := _written(lines, separators)) is None:
         raise InputError(f"{path}: is no table of numbers; allowed: {ALLOWED}")
-    width, separator, decimal, words = written
-    place = next(  # of whatever decimals: a row of others is wrong, and no line of titles
-        n for n, (_, line) in enumerate(text) if width in (is_row(line, separator, one, words) for one in ".,")
-    )
-    if decimal == ",":
-        _check_commas(path, [line for _, line in text[place:]], separator, words)
-    first = text[place][0]
-    # rows may end with a separator where the line of titles does not
-    ended = all(not items(line, separator)[-1] for _, line in text[place:])
-    titles, notes = _titles(path, lines[:first], text[:place], (width, separator, ended))
-    if words:
-        others = ", ".join(short(titles[n][0]) for n in sorted(words)[:FEW])
-        notes = (*notes, f"Columns that are no numbers are left out: {others}.")
-    return TableLayout(separator, decimal, first, width, titles, notes, words)
-
-
-def _check_commas(path: Path, lines: Sequence[str], separator: str, words: Collection[int]) -> None:
-    """Raise InputError if all commas may stand between thousands."""
-    rows = (items(line, separator) for line in lines)
-    with_comma = [one for row in rows for n, one in enumerate(row) if "," in one and n not in words]
-    if with_comma and all(GROUPED.fullmatch(one) for one in with_comma):
-        whole, part = with_comma[0].replace(",", ""), with_comma[0].replace(",", ".", 1)
-        raise InputError(
-            f"{path}: {with_comma[0]!r} may be {whole} or {part}; allowed: decimals with a point, or at least "
-            "one number that tells what the comma is, such as 0,5"
-        )
-
-
-def _titles(
-    path: Path, above: Sequence[str], text: Sequence[tuple[int, str]], rows: Rows
-) -> tuple[tuple[tuple[str, str | None], ...], tuple[str, ...]]:
-    """A name and a unit for each column, and what is told."""
-    width, separator, _ = rows
+    separator, decimal, kinds = written
+    comment = re.compile(COMMENTS[separator])
+    text = [
+        (n, items(line, separator)) for n, line in enumerate(lines) if line.strip() and not comment.match(line)
+    ]
+    start = _first_row(text, kinds, decimal)
     notes: list[str] = []
-    words_above = [one for _, line in text for one in line.split()]
-    if text and all(NUMBERS["."].fullmatch(one) for one in words_above):  # sizes, as of rows: no titles
-        notes.append(f"Lines of other numbers above the rows are passed over: {len(text)}.")
-        text = ()
-    if not text:
-        words = _of_comment(above, rows)
-        if words is None:
-            notes.append("There are no titles; columns are called by their numbers, column_1 and so on.")
-            return tuple((f"column_{n}", None) for n in range(1, width + 1)), tuple(notes)
-        return _named(words, None, width, notes), tuple(notes)
-    number, line = text[-1]
-    words = _fitted(line, rows)
-    if words is None and (words := _a_line_each(text, rows)) is not None:
-        text = text[: 1 - width]  # of which the last is the first title
-    if words is None:
-        found = len(items(line, separator))
-        more = "; where commas are decimal points items need another separator, ';'" if separator == "," else ""
+    if start + 1 < len(text) and _are_channels(text[start : start + 3], kinds):
+        notes.append(f"Line {text[start][0] + 1} numbers the columns, and is passed over.")
+        start += 1
+    _check_groups(path, [found for _, found in text[start:]], kinds, decimal)
+    first = text[start][0]
+    rows = [found for _, found in text[start:]]
+    whole = any(len(found) == len(kinds) and found[-1] for _, found in text[:start])
+    ended = len(kinds) > 1 and not whole and all(len(one) == len(kinds) and not one[-1] for one in rows)
+    names = Titles(path, separator, decimal, len(kinds) - ended)
+    titles = names.read(text[:start], list(enumerate(lines[:first])))
+    titles += (("", None),) * ended
+    notes += names.notes
+    named = tuple((name or f"column_{n}", unit) for n, (name, unit) in enumerate(titles, 1))
+    lacking = [f"column_{n}" for n, (name, _) in enumerate(titles[: len(kinds) - ended], 1) if not name]
+    if 0 < len(lacking) < len(kinds) - ended:
+        notes.append(f"Columns without a title are called {first_names(lacking)}.")
+    return TableLayout(separator, decimal, first, named, kinds, tuple(notes), intervals)
+
+
+def _first_row(text: Sequence[tuple[int, list[str]]], kinds: Sequence[str], decimal: str) -> int:
+    """The index of the first row; one or two above a line of words alone, as the titles are, are none."""
+    fits = [_is_row(found, kinds, decimal) for _, found in text]
+    start, titled = fits.index(True), False
+    for n, (_, found) in enumerate(text[: len(fits) - fits[::-1].index(True)]):
+        own = [kind_of(item, decimal) for item in found]
+        if len(own) == len(kinds) and "word" in own and not {"number", "stamp"} & {*own}:
+            start = fits.index(True, n) if sum(fits[:n]) <= FEW and not (titled and any(fits[:n])) else start
+            titled = True
+    while start and any(_is_row(text[start - 1][1], kinds, one) for one in ".,"):
+        start -= 1  # of whatever decimals: a row of others is wrong, and no line of titles
+    return start
+
+
+def _are_channels(rows: Sequence[tuple[int, list[str]]], kinds: Sequence[str]) -> bool:
+    """Whether the first of some rows has the numbers 1, 2, 3 of the columns, and is no step of the times."""
+    if len(rows) < 2 or len(kinds) < 3 or len(rows[0][1]) != len(kinds):
+        return False
+    numbered = any(rows[0][1] == [str(n) for n in range(base, base + len(kinds))] for base in (0, 1))
+    try:
+        times = [float(found[0].replace(",", ".")) for _, found in rows]
+    except ValueError:
+        return numbered
+    steps = [after - before for before, after in pairwise(times)]
+    return numbered and (
+        steps[0] <= 0.0 or (len(steps) > 1 and abs(steps[0] - steps[1]) > 0.01 * abs(steps[1]))
+    )
+
+
+def _check_groups(path: Path, rows: Sequence[Sequence[str]], kinds: Sequence[str], decimal: str) -> None:
+    """Raise InputError if signs may stand between thousands or before decimals, and no number tells."""
+    found = [
+        row[n] for row in rows if len(row) == len(kinds) for n, kind in enumerate(kinds) if kind == "number"
+    ]
+    sign, point = (",", ".") if decimal == "." else (".", ",")
+    in_doubt = [one for one in found if sign in one and GROUPED.fullmatch(one)]
+    pointed = [one for one in found if point in one]
+    if decimal == "," and not in_doubt:  # then 1,234 is decimal or a thousand
+        in_doubt, pointed = pointed, [one for one in pointed if not GROUPED.fullmatch(one)]
+    if in_doubt and not pointed and not any(MANY_GROUPS.fullmatch(one) for one in found):
+        digits = in_doubt[0].replace(",", "").replace(".", "")
+        part = in_doubt[0].replace(",", ".")
         raise InputError(
-            f"{path}: line {number + 1}: has {found} titles, separated by {SAID[separator]}, above rows of "
-            f"{width} items; allowed: as many titles as items{more}"
+            f"{path}: {in_doubt[0]!r} may be {digits} or {part}; allowed: decimals with a point, or at least "
+            "one number that tells what the sign is, such as 0,5"
         )
-    below, rest = None, text[:-1]
-    if rest and _are_units(words) and (upper := _fitted(rest[-1][1], rows)) is not None:
-        below, words, rest = words, upper, rest[:-1]
-    if rest:
-        notes.append(
-            f"{len(rest)} {'line' if len(rest) == 1 else 'lines'} above the titles "
-            f"{'is' if len(rest) == 1 else 'are'} passed over."
-        )
-    return _named(words, below, width, notes), tuple(notes)
-
-
-def _a_line_each(text: Sequence[tuple[int, str]], rows: Rows) -> list[str] | None:
-    """Titles that stand a line each; None if the lines above the rows are other ones."""
-    width, separator, _ = rows
-    words = [line.strip().strip('"') for _, line in text[-width:]]
-    single = all(len(items(one, separator)) == 1 or separator == BLANKS for one in words)
-    return words if len(words) == width and single and is_time_title(words[0]) else None
-
-
-def is_time_title(title: str) -> bool:
-    """Whether a title is one of times."""
-    return split_title(title)[0].casefold() in ("time", "t")
-
-
-def _of_comment(above: Sequence[str], rows: Rows) -> list[str] | None:
-    """Titles in the last comment before the rows, as numpy writes them."""
-    comments = [line for line in above if COMMENT.match(line)]
-    if not comments:
-        return None
-    line = COMMENT.sub("", comments[-1], count=1)
-    return _fitted(line, rows)
-
-
-def _fitted(line: str, rows: Rows) -> list[str] | None:
-    """The items of a line of titles, None if they are not as many as those of a row."""
-    width, separator, ended = rows
-    found = items(line, separator)
-    if separator == BLANKS and len(found) != width:  # a unit in brackets is no title
-        found = re.split(r"\s+(?![\[(])", line.strip())
-    if ended and len(found) == width - 1:
-        found.append("")
-    return found if len(found) == width else None
-
-
-def _are_units(words: Sequence[str]) -> bool:
-    """Whether a line has units for titles above it."""
-    bare = [one.strip("[]() ") for one in words]
-    return any(one not in ("", "-") for one in bare) and all(is_unit(one) for one in bare)
-
-
-def _named(
-    words: Sequence[str], below: Sequence[str] | None, width: int, notes: list[str]
-) -> tuple[tuple[str, str | None], ...]:
-    found = []
-    for n in range(width):
-        if below is not None:
-            bare = below[n].strip("[]() ")
-            found.append((words[n] or f"column_{n + 1}", as_pint_writes(bare) if bare else None))
-            continue
-        name, unit, told = split_title(words[n])
-        if told:
-            notes.append(f"{told[0].upper()}{told[1:]}.")
-        found.append((name or f"column_{n + 1}", unit))
-    return tuple(found)

@@ -1,13 +1,15 @@
-"""Units of series, by pint.
+"""Units of series: how files write them, and their conversion by pint.
 
 Three things differ from pint's own words. An angle is no pure number, so that deg is not made a number without
 unit, nor Hz rad/s. `g` is the gram, but the standard gravity 9.80665 m/s^2 where an acceleration is asked for,
-which grams cannot be. `Nm` is N m, where pint reads a count per length; `m/s2` is m/s^2.
+which grams cannot be; likewise `t` is the tonne, but its weight where a force is asked for. `Nm` is N m, where
+pint reads a count per length; `m/s2` is m/s^2.
 """
 
 from __future__ import annotations
 
 import re
+import unicodedata
 from functools import lru_cache
 from typing import Any
 
@@ -17,16 +19,47 @@ import numpy.typing as npt
 from support_exudyn.files.series.named_series import NamedSeries
 from user_forces.values.value import InputError, short
 
-NO_UNIT = ("-", "1", "no_units", "none", "unitless", "dimensionless")  # of pure numbers
+NO_UNIT = ("-", "--", "1", "no_units", "none", "unitless", "dimensionless", "[-]")  # of pure numbers
 LONGEST = 60  # letters of a unit
 # letters, powers of at most two digits, and signs between them: pint computes what it is given, 9**9**9 too
-WORDS = re.compile(r"[A-Za-z0-9µμ°%Ω_²³⁻¹·*/^() .+-]+")
+WORDS = re.compile(r"[A-Za-z0-9µμε°%Ω_²³⁻¹·⋅*/^() .+-]+")
 COSTLY = re.compile(
     r"\d{3}|\d[eE]|[\d)]\s*(\*\*|\^)|(\*\*|\^)\s*-?\(|(\*\*|\^)[^*^]*(\*\*|\^)\s*[-\d.]*(\*\*|\^)"
 )
 TORQUE = re.compile(r"(?<![A-Za-z_])([kMm]?N)(m|mm|cm)(?![A-Za-z_])")
 POWER = re.compile(r"(?<=[A-Za-zµμ])([2-4])(?![\d.])")
 JOINED = re.compile(r"(?<=[A-Za-z])-(?=[A-Za-z])")  # newton-meter
+LETTERS = re.compile(r"[A-Za-zµμε°_]+")
+# by which a title may end after a low line; no letters that also name things, as A, B, C, l, t do
+SMALL = {
+    *("m", "mm", "cm", "um", "km", "mm2", "m2", "mm3", "m3", "s", "ms", "us", "min"),
+    *("deg", "rad", "mrad", "rpm", "N", "kN", "MN", "mN", "Pa", "kPa", "MPa", "GPa", "bar", "mbar"),
+    *("kg", "J", "kJ", "W", "kW", "Hz", "kHz", "degC", "percent", "inch", "ft", "lbf", "sec"),
+}
+USUAL = {*SMALL, "h", "l", "g", "t", "°", "°C", "psi", "kgf", "tf", "lb", "µm", "µs", "K", "V", "mV", "A", "mA"}
+# units in any case of letters that can be read in no other way; mPa and MPa, mN and MN can
+CASED = {
+    one.casefold(): one
+    for one in (USUAL | {"knm", "ksi", "kips", "degF", "inches", "hPa", "kW", "N*m", "kN*m"})
+    if len(one) > 1 and one not in ("MPa", "MN", "mN", "mV", "MN*m")
+} | {"knm": "kN*m", "mpa": "MPa"}
+WHOLE = {  # units as a whole, in any case of letters, that pint does not know or reads otherwise
+    **dict.fromkeys(("r/min", "rev/min", "revs/min", "u/min", "upm", "rpm", "revolutions/min"), "rpm"),
+    **dict.fromkeys(("r/s", "rev/s", "rps"), "turn/s"),
+    **dict.fromkeys(("tonf", "ton-force", "tonne-force", "metric ton-force"), "tf"),
+    **dict.fromkeys(("°c", "deg c", "deg. c", "degc", "celsius", "°celsius", "grad c"), "degC"),
+    **dict.fromkeys(("tonne", "tonnes", "metric ton", "metric tons"), "t"),
+    **dict.fromkeys(("ue", "ustrain", "µstrain", "µε", "με", "um/m", "µm/m"), "microstrain"),
+    "lpm": "l/min", "gpm": "gallon/min", "m/s/s": "m/s**2", "pct": "%",
+}  # fmt: skip
+NAMES = {  # words that pint does not know, or reads otherwise
+    "pound_mass": "pound", "kpound_mass": "kilopound", "ounce_mass": "ounce", "kpound_force": "kilopound_force",
+    "knewton": "kilonewton", "kgf": "kilogram_force", "angular_minutes": "arcminute",
+    "angular_seconds": "arcsecond", "kwh": "kilowatt_hour", "rev": "turn", "msec": "ms", "usec": "us",
+    "secs": "s", "hrs": "h", "mins": "min",
+}  # fmt: skip
+OF_LENGTH = ("s", "m", "mm", "ms", "min")  # in units all in capital letters, MM/S
+OF_TIME = {"s": "s", "ms": "ms", "us": "us", "min": "min", "h": "h", "d": "day"}  # in any case, of times
 
 
 @lru_cache(maxsize=1)
@@ -72,6 +105,7 @@ def is_unit(text: str) -> bool:
     return True
 
 
+@lru_cache(maxsize=1000)
 def is_time(text: str) -> bool:
     """Whether a text is a unit of time."""
     return is_unit(text) and bool(_base(text) == _registry().Unit("s"))
@@ -91,11 +125,13 @@ def scaled(values: npt.NDArray[np.float64], given: str, unit: str, where: str) -
     """
     unit_checked(given, where)
     unit_checked(unit, where)
-    if _same(given, unit):
+    if _unit(given) == _unit(unit) and given.strip() == unit.strip():
         return values
     registry, known = _registry(), _unit(given)
     if given.strip() == "g" and _base(unit) == registry.Unit("m/s**2"):
         known = registry.Unit("standard_gravity")
+    elif given.strip() == "t" and _base(unit) == _base("N"):
+        known = registry.Unit("force_metric_ton")
     elif _base(given) != _base(unit):
         raise InputError(
             f"{where}: is in {given or 'pure numbers'}, which cannot be given in {unit or 'pure numbers'}; "
@@ -103,10 +139,6 @@ def scaled(values: npt.NDArray[np.float64], given: str, unit: str, where: str) -
         )
     converted: npt.NDArray[np.float64] = np.asarray(registry.Quantity(values, known).to(_unit(unit)).magnitude)
     return converted
-
-
-def _same(one: str, other: str) -> bool:
-    return bool(_unit(one) == _unit(other)) and one.strip() == other.strip()
 
 
 def _hint(given: str, unit: str) -> str:
@@ -130,14 +162,59 @@ def converted(series: NamedSeries, unit: str) -> npt.NDArray[np.float64]:
     return scaled(series.values, series.unit, unit, series.name)
 
 
-# --- titles of columns: a name and a unit, `tip.x [mm]`, `tip.x (mm)` or `tip.x_mm` ---
+# --- units as files write them ---
 
-# by which a title may end after a low line; no letters that also name things, as A, B, C, l, t do
-SMALL = {
-    *("m", "mm", "cm", "um", "km", "mm2", "m2", "mm3", "m3", "s", "ms", "us", "min"),
-    *("deg", "rad", "mrad", "rpm", "N", "kN", "MN", "mN", "Pa", "kPa", "MPa", "GPa", "bar", "mbar"),
-    *("kg", "J", "kJ", "W", "kW", "Hz", "kHz", "degC", "percent", "inch", "ft", "lbf", "sec"),
-}
+
+@lru_cache(maxsize=10_000)
+def read_unit(text: str, of_time: bool = False) -> tuple[str | None, str]:
+    """The unit that a file's text is, in words that pint reads, and a note on what was assumed, or nothing.
+
+    None if it is none, or can be read in two ways. of_time: whether it stands behind a name of times, where S
+    is the second and MIN the minute.
+    """
+    text = " ".join(unicodedata.normalize("NFKC", text).split())
+    if text in ("", *NO_UNIT):
+        return "", ""
+    if of_time and text.casefold() in OF_TIME:
+        return OF_TIME[text.casefold()], ""
+    if text.casefold() in WHOLE:
+        return WHOLE[text.casefold()], ""
+    if text.casefold() in ("ton", "tons"):
+        return "t", f"unit {text!r} is read as the tonne of 1000 kg, and its weight where it is a force"
+    if text in ("mpa", "mn", "Mn"):
+        return None, f"unit {text!r} may be {'mPa or MPa' if text == 'mpa' else 'mN or MN'}; it counts as none"
+    if text == "G":
+        return "g", "unit 'G' is read as g"
+    if text in ("mPa", "mN"):
+        return text, f"unit {text!r} is a thousandth of {text[1:]}; {text.replace('m', 'M')} has a capital M"
+    whole = text.upper() == text and "/" in text
+    found = LETTERS.sub(lambda word: _word(word.group(), whole), text)
+    if not is_unit(found):
+        return None, ""
+    assumed = any(_is_assumed(word, whole) for word in LETTERS.findall(text))
+    return as_pint_writes(found), f"unit {text!r} is read as {found}" if assumed else ""
+
+
+def _word(word: str, upper: bool) -> str:
+    """A word of a unit as pint knows it. upper: whether the whole unit is in capital letters, as MM/S."""
+    small = word.casefold()
+    if small in NAMES:
+        return NAMES[small]
+    if _is_assumed(word, upper):
+        return small if upper and small in OF_LENGTH else CASED[small]
+    return small if small != word and len(word) > 2 and not is_unit(word) else word
+
+
+def _is_assumed(word: str, upper: bool) -> bool:
+    """Whether a word of a unit is read with other letters, capital or small, than it has."""
+    small = word.casefold()
+    if word in USUAL or small in NAMES:
+        return False
+    return (upper and small in OF_LENGTH) or (small in CASED and (word != small or small == "kn"))
+
+
+# --- titles of columns: a name and a unit ---
+
 PRODUCTS = {  # the only products: of v_m_s nobody knows whether it is a speed
     "N_m": "N*m", "kN_m": "kN*m", "MN_m": "MN*m", "N_mm": "N*mm", "N_s": "N*s", "kN_s": "kN*s",
     "kg_m2": "kg*m**2", "kg_m": "kg*m",
@@ -145,41 +222,81 @@ PRODUCTS = {  # the only products: of v_m_s nobody knows whether it is a speed
 ENDINGS = {**{one: as_pint_writes(one) for one in SMALL}, **PRODUCTS}
 ABOVE = {**ENDINGS, "l": "l", "t": "t"}  # a "per"
 BELOW = {**ENDINGS, "s2": "s**2", "h": "h"}
-BRACKETS = re.compile(r"(.*\S)\s*(?:\[([^\[\]]*)\]|\(([^()]*)\))", re.DOTALL)
+BRACKETS = re.compile(r"(.*\S)\s*(?:\[([^\[\]]*)\]|\(([^()]*)\)|\{([^{}]*)\})", re.DOTALL)
+# "time, s", "Pressure/MPa", "Force in kN", "Force kN"; before a stroke stands no unit, as in mm/s
+BARE = re.compile(r"(.*?[^\s,:/])(?:\s*(,|/)\s*|\s+(in)\s+|(\s+|:\s*))(\S+)", re.DOTALL)
+TIMES = re.compile(r"(^|[^a-z])(time|zeit|temps|tiempo|tempo|timestamp)([^a-z]|$)|时间|时刻", re.IGNORECASE)
 
 
+def is_called_time(name: str) -> bool:
+    """Whether a name has a word for times, as Elapsed Time, Zeit or 时间."""
+    return name.casefold() == "t" or TIMES.search(name.replace("_", " ")) is not None
+
+
+@lru_cache(maxsize=10_000)
 def split_title(title: str) -> tuple[str, str | None, str]:
-    """The name of a column, its unit (None: it has none), and a note on it, or nothing."""
-    title = title.strip()
+    """The name of a column, its unit (None: it has none), and a note on it, or nothing.
+
+    The unit stands in brackets, `tip.x [mm]`, `tip.x (mm)`; behind a low line, `tip.x_mm`; or if it is a usual
+    one, as in `time, s`, `Pressure/MPa`, `Force in kN`, `Force kN`.
+    """
+    title = unicodedata.normalize("NFKC", title).strip() if not title.isascii() else title.strip()
     if found := BRACKETS.fullmatch(title):
-        name, square, round_ = found.groups()
-        unit = (round_ if square is None else square).strip()
-        if not unit:
+        name, *insides = found.groups()
+        name = name.rstrip(" /") or name
+        text = next(one for one in insides if one is not None).strip()
+        if not text:
             return name, None, ""
-        if is_unit(unit):
-            return name, as_pint_writes(unit), ""
-        return title, None, f"column {title!r}: {unit!r} is no unit that pint reads; it counts as none"
+        unit, note = read_unit(text, is_called_time(name))
+        if unit is None and not note:
+            return title, None, f"column {title!r}: {text!r} is no unit that pint reads; it counts as none"
+        return name, unit, f"column {name!r}: {note}" if note else ""
     words = title.split("_")
     for start in range(1, len(words)):
-        unit = _ending("_".join(words[start:]))
+        unit, note = _ending("_".join(words[:start]), "_".join(words[start:]))
         if unit is None:
             continue
         if words[start - 1] in SMALL and start > 1:
             return title, None, f"column {title!r}: its unit can be read in two ways; it counts as none"
-        return "_".join(words[:start]), unit, ""
+        name = "_".join(words[:start])
+        return name, unit, f"column {name!r}: {note}" if note else ""
+    if (bare := BARE.fullmatch(title)) and (usual := _usual(bare[1], bare[5], bare[2] or bare[3] or "")):
+        return bare[1], usual[0], f"column {bare[1]!r}: {usual[1]}" if usual[1] else ""
     return title, None, ""
 
 
-def _ending(text: str) -> str | None:
-    """The unit that an ending stands for, None: for none."""
+def _usual(name: str, text: str, sign: str) -> tuple[str, str] | None:
+    """The unit, with a note, that stands in a title behind a sign or a blank; None if it is no usual one."""
+    of_time = is_called_time(name)
+    unit, note = read_unit(text, of_time)
+    words = [_word(word, False) for word in LETTERS.findall(text)]
+    known = text.casefold() in WHOLE or all(word.rstrip("2345") in USUAL for word in words)
+    if unit is None or not words or not (known or (of_time and is_time(unit))):
+        return None
+    if not of_time:  # "mm/s" is a unit and no name; "Force min" is the least, "Sensor N" a name
+        names = USUAL - {"t", "h", "l", "g"}
+        if (sign == "/" and name in names) or (not sign and (text in ("min", "ms", "um") or len(text) < 2)):
+            return (unit, note) if text == "°" else None
+    return unit, note
+
+
+def _ending(name: str, text: str) -> tuple[str | None, str]:
+    """The unit that an ending of a title stands for, None: for none; and a note."""
     above, per, below = text.partition("_per_")
     if not per and text.startswith("per_"):
         above, per, below = "1", "per_", text[len("per_") :]
     if not per:
-        return ENDINGS.get(text)
+        if text in ENDINGS:
+            return ENDINGS[text], ""
+        of_time, small = is_called_time(name), text.casefold()
+        if of_time and small in OF_TIME:
+            return OF_TIME[small], ""
+        if small in ("ton", "tonf") or (small in CASED and small not in ("min", "lb", "µs", "ms")):
+            return read_unit(text)
+        return ("g", "") if small == "g" and name.casefold().startswith("acc") else (None, "")
     over = "1" if above == "1" else ABOVE.get(above)
     units = [BELOW.get(one) for one in below.split("_")]
     if over is None or None in units:
-        return None
+        return None, ""
     words = "*".join(map(str, units))
-    return f"{over}/({words})" if len(units) > 1 else f"{over}/{words}"
+    return (f"{over}/({words})" if len(units) > 1 else f"{over}/{words}"), ""

@@ -117,7 +117,15 @@ def run_or_series(
     if is_own:
         return Result.load(path)
     mapped = mapped or MappedFile()
-    return read_series(path, units=mapped.units, analysis=mapped.analysis, names=names, progress=progress)
+    return read_series(
+        path,
+        units=mapped.units,
+        analysis=mapped.analysis,
+        sheet=mapped.sheet,
+        rate=mapped.rate,
+        names=names,
+        progress=progress,
+    )
 
 
 def read_files(

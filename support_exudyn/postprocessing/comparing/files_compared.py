@@ -120,6 +120,7 @@ def compare_files(
     until: float = math.inf,
     find_shift: bool = False,
     progress: Progress = silent,
+    rate: float | None = None,
 ) -> FilesCompared:
     """Compare files with a reference.
 
@@ -134,6 +135,7 @@ def compare_files(
         after, until: the part that is compared [s].
         find_shift: determine by how much every file lags behind the reference, and take it off.
         progress: receives the share of the files that is read.
+        rate: rows per second [Hz] of files without times for which the mapping gives none.
 
     Raises InputError if something cannot be read, mapped or compared: what, where, and what is allowed; OSError
     if a file is not there.
@@ -144,6 +146,7 @@ def compare_files(
     if isinstance(mapping, (str, Path)):
         mapping = read_compare_file(Path(mapping), [path for path in files if isinstance(path, Path)])
     mapping = mapping or CompareFile()
+    mapping = replace(mapping, rate=mapping.rate or rate)
     first, *rest = read_files(files, mapping, channels, progress)
     asked = read_tolerances(tolerance) if isinstance(tolerance, str) else list(tolerance)
     tolerances = [*asked, *tolerances_of(mapping)]

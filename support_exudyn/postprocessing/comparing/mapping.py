@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import field
+from dataclasses import field, replace
 from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
@@ -18,8 +18,8 @@ from support_exudyn.files.toml.reading import Reader, read_value
 from support_exudyn.files.toml.text import load_toml
 from support_exudyn.files.whole_file import missing_file
 from support_exudyn.postprocessing.figures.selection import is_called
-from user_forces.values.units import Seconds
-from user_forces.values.value import InputError, Real, Value, short, value
+from user_forces.values.units import Hertz, Seconds
+from user_forces.values.value import InputError, Positive, Real, Value, short, value
 
 WRITTEN = re.compile(r"\s*([+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S.*?)?\s*")
 PERCENT, ERRORS = "%", "errors"
@@ -50,12 +50,16 @@ class MappedFile(Value):
         units: of columns for which this file names none, by names or patterns of them.
         shift: is added to the times of the file [s].
         analysis: which of its analyses is read, where the file has several.
+        sheet: which of its sheets, of a workbook.
+        rate: rows per second of a file without times [Hz], > 0.
     """
 
     columns: Mapping[str, MappedColumn] = field(default_factory=dict)
     units: Mapping[str, str] = field(default_factory=dict)
     shift: Seconds[Real] = 0.0
     analysis: str | None = None
+    sheet: str | None = None
+    rate: Hertz[Positive] | None = None
 
 
 @value
@@ -65,14 +69,17 @@ class CompareFile(Value):
     Arguments:
         files: by their names, or patterns of them as in a shell, such as "measured*.csv".
         tolerances: of channels, by names or patterns: "2 %" of the range of the reference, or "0.1 mm".
+        rate: of files without times for which none is given, rows per second [Hz], > 0.
     """
 
     files: Mapping[str, MappedFile] = field(default_factory=dict)
     tolerances: Mapping[str, str] = field(default_factory=dict)
+    rate: Hertz[Positive] | None = None
 
     def of(self, path: Path) -> MappedFile:
         """The first entry whose name or pattern fits a file."""
-        return next((each for name, each in self.files.items() if _fits(path, name)), MappedFile())
+        found = next((each for name, each in self.files.items() if _fits(path, name)), MappedFile())
+        return found if found.rate else replace(found, rate=self.rate)
 
 
 def _fits(path: Path, name: str) -> bool:

@@ -89,7 +89,7 @@ BOMB = (
         (SMALL.replace('unitsValue="sec"', ""), "times, column 'time.TIME': have no unit"),
         ("<Results><Analysis/></Results>", "has no analysis with a map of steps; allowed: one of its 1"),
         (SMALL.partition("<Data>")[0] + "</Analysis></Results>", "has no steps; allowed: one or more"),
-        ("<html><body/></html>", "is XML of 'html'; allowed: ADAMS result files, of <Results>"),
+        ("<html><body/></html>", "is a page of HTML"),
         ('<?xml version="1.0" encoding="klingon"?><Results/>', r"is no text in its encoding \(unknown"),
     ],
     ids=range(11),

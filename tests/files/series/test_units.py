@@ -36,6 +36,8 @@ def series(unit: str | None) -> NamedSeries:
         ("g", "m/s^2", 9.80665),
         ("g", "kg", 1e-3),
         ("J", "N m", 1.0),
+        ("t", "N", 9806.65),
+        ("tf", "kN", 9.80665),
     ],
 )
 def test_values_are_converted(given_unit: str, wanted: str, factor: float) -> None:
@@ -80,6 +82,36 @@ def test_nothing_is_guessed(given_unit: str | None, wanted: str, message: str) -
         ("pin_A", "pin_A", None),  # no amperes
         ("force [rear]", "force [rear]", None),
         ("v_m_s", "v_m_s", None),  # metres times or by seconds
+        ("Time (Second)", "Time", "second"),
+        ("TIME [S]", "TIME", "s"),
+        ("time, s", "time", "s"),
+        ("Zeit/min", "Zeit", "min"),
+        ("t/s", "t", "s"),
+        ("Pressure/MPa", "Pressure", "MPa"),
+        ("v / (mm/s)", "v", "mm/s"),
+        ("p / bar", "p", "bar"),
+        ("mm/s", "mm/s", None),
+        ("Force in kN", "Force", "kN"),
+        ("Force kN", "Force", "kN"),
+        ("Force min", "Force min", None),  # the least
+        ("Sensor N", "Sensor N", None),
+        ("Load cell, rear", "Load cell, rear", None),
+        ("F_KN", "F", "kN"),
+        ("p (Mpa)", "p", "MPa"),
+        ("p (mPa)", "p", "mPa"),
+        ("p (mpa)", "p", None),
+        ("F (Ton)", "F", "t"),
+        ("F (tonf)", "F", "tf"),
+        ("n [rev/min]", "n", "rpm"),
+        ("n [r/min]", "n", "rpm"),
+        ("T (℃)", "T", "degC"),
+        ("T [°C]", "T", "degC"),
+        ("SPEED [MM/S]", "SPEED", "mm/s"),
+        ("压力\uff08MPa\uff09", "压力", "MPa"),
+        ("a (m/s²)", "a", "m/s**2"),
+        ("acc_g", "acc", "g"),
+        ("t (us)", "t", "us"),
+        ("M [KN.m]", "M", "kN.m"),
     ],
 )
 def test_titles_have_a_name_and_a_unit(title: str, name: str, unit: str | None) -> None:
