@@ -20,7 +20,7 @@ from support_exudyn.commands.command_line import (
     warn,
     write_or_say,
 )
-from support_exudyn.postprocessing import sweep_summary, sweep_table
+from support_exudyn.postprocessing import sweep_sliders, sweep_summary, sweep_table
 from support_exudyn.postprocessing.figures.selection import matching
 from support_exudyn.postprocessing.sweep_runs import SweepRuns
 from support_exudyn.sweeps import read_sweep, read_table
@@ -57,7 +57,7 @@ def sweep(
     Args:
         file: What is varied, as TOML.
         out: The store (FILE_sweep next to FILE).
-        workers: Processes on this machine (as many as there are cores).
+        workers: Runs side by side on this machine (as many as there are cores).
         scheduler: Address of a Dask scheduler, such as tcp://10.0.0.5:8786, whose workers have this program,
             too; needs `pip install 'support-exudyn[cluster]'`.
         retry_failed: Run again what has failed before.
@@ -112,6 +112,7 @@ def chart(
     by: str | None = None,
     histogram: bool = False,
     tornado: bool = False,
+    sliders: bool = False,
     out: Annotated[Path | None, FIGURES] = None,
 ) -> None:
     """Draw, write, and print the names of the files.
@@ -123,12 +124,23 @@ def chart(
         by: Something else that was varied, a curve for each of its values.
         histogram: Draw how Y is distributed, with percentiles.
         tornado: Draw by how much each varied field moves Y.
+        sliders: Write a page with a slider for every input, which shows the numbers of the nearest run; of the
+            numbers named, or of all.
         out: Folder of the figure (figures in the store), or its file (.png, .pdf, .svg).
     """
     from support_exudyn.postprocessing.figures import style
     from support_exudyn.postprocessing.figures import sweeps as figures
     from support_exudyn.postprocessing.figures.of_runs import joined, save_figures
 
+    if sliders:
+        if by or histogram or tornado:
+            raise InputError("--sliders: allowed: without --by, --histogram, --tornado")
+        runs, folder = SweepRuns(read_table(store)), _folder(store)
+        page = out or folder / "figures"
+        page = page if page.suffix == ".html" else page / "sliders.html"
+        chosen = _chosen(runs, names) or list(runs.numbers.values())
+        say(sweep_sliders.write_sliders(runs, chosen, page, folder.resolve().name))
+        return
     if len(names) > 2:
         raise InputError(f"{' '.join(names)}: allowed: what was varied and a number, or a number alone")
     if histogram + tornado + len(names[:-1]) > 1:

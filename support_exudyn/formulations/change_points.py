@@ -27,6 +27,7 @@ SPIKE = 10.0  # times the forces a little beside: what records next to the point
 LEAP = 0.01  # share of the largest force by which none leaps from record to record
 BEYOND = 1e6  # times the median: forces beside a point that is passed freely, which are of rounding
 CLOSE = 1e-3  # of the largest singular value: where a run ends so near to a point it is the reason
+STRIDE = 16  # records between those whose values are computed in any case
 SAMPLES = 2000  # records at least that are looked at, of many
 FOUND = 1e-9  # of the time between two records
 ADVICE = (
@@ -37,10 +38,45 @@ ADVICE = (
 
 def values_of(conditions: Conditions, position: Series) -> Series:
     """Singular values of the conditions at positions (n, 3 bodies), as shares of the largest, (n, k)."""
+    return _values(_rows(conditions, position))
+
+
+def _rows(conditions: Conditions, position: Series) -> Series:
     motion = BodyMotion(conditions.linkage, position, position)
-    rows = conditions.counts[:, None] * matrix(motion, conditions.kinetics.constraints) / conditions.arms
+    return np.asarray(
+        conditions.counts[:, None] * matrix(motion, conditions.kinetics.constraints) / conditions.arms
+    )
+
+
+def _values(rows: Series) -> Series:
     values: Series = np.asarray(np.linalg.svd(rows, compute_uv=False))
     return values / np.maximum(values[:, :1], math.ulp(0.0))
+
+
+def _where_it_dips(conditions: Conditions, position: Series, last: int) -> Series:
+    """What is left of a condition at positions (n, 3 bodies), (n,); nan where it certainly has no dip.
+
+    A singular value changes by no more than the norm of the difference of two matrices (Weyl). Between two
+    of some positions with little difference no neighbours can differ as much as a dip does.
+    """
+    rows = _rows(conditions, position)
+    count = len(rows)
+    some = np.unique(np.append(np.arange(0, count, STRIDE), count - 1))
+    values = np.linalg.svd(rows[some], compute_uv=False)
+    moved = np.linalg.norm(np.diff(rows, axis=0), axis=(1, 2))
+    length = np.concatenate([[0.0], np.cumsum(moved)])
+    way = np.diff(length[some])
+    lowest, highest = values[:-1, last] - way, values[:-1, 0] + way
+    steepest = np.maximum.reduceat(moved, some[:-1])
+    # of a share s_k / s_1 of two neighbours: (1 + step / s_k) / (1 - step / s_1), with room to spare
+    shaky = ~((lowest > 0.0) & (steepest * (1.0 / lowest + 1.0 / (highest - 2.0 * way)) < 0.5 * (DIP - 1.0)))
+    shaky |= highest <= 2.0 * way
+    shaky[[0, -1]] = True
+    shaky |= np.append(shaky[1:], False) | np.append(False, shaky[:-1])
+    wanted = np.append(np.repeat(shaky, np.diff(some)), True)
+    left = np.full(count, np.nan)
+    left[wanted] = _values(rows[wanted])[:, last]
+    return left
 
 
 def words(conditions: Conditions, position: Matrix) -> str:
@@ -88,7 +124,7 @@ def passed(scenario: Scenario, run: Trajectory) -> tuple[float, str] | None:
     driven = last == motion.position.shape[1] - 1
     some = slice(None, None, max(1, len(time) // SAMPLES))
     time, motion = time[some], BodyMotion(motion.linkage, motion.position[some], motion.velocity[some])
-    left = values_of(conditions, motion.position)[:, last]
+    left = _where_it_dips(conditions, motion.position, last)
     joints = np.array([force[some] for force in forces.values()])
     largest = joints.max(axis=0)
     before, here, after = left[:-2], left[1:-1], left[2:]

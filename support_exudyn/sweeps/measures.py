@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Mapping
 from difflib import get_close_matches
 from fnmatch import fnmatchcase
 
+from support_exudyn.mechanics.channels import chosen
 from support_exudyn.mechanics.time_statistics import TimeWindow
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.estimate import errors
@@ -59,6 +60,20 @@ def numbers(result: Result, record: Record) -> dict[str, StoredNumber]:
         name: StoredNumber(kind.measure(result), _finite(known.get(name)), kind.unit)
         for name, kind in found.items()
     }
+
+
+def channels_of(names: Iterable[str], scenario: Scenario) -> tuple[str, ...]:
+    """Those channels of a scenario that numbers may be taken of, named or as patterns; at least the time."""
+    words = (*WORDS, *(f"impulse_{n}" for n in range(1, 10)))
+
+    def is_asked(name: str) -> bool:
+        return any(
+            pattern.rpartition(".")[0] == name or any(fnmatchcase(f"{name}.{word}", pattern) for word in words)
+            for pattern in names
+        )
+
+    found = filter(is_asked, chosen(scenario.channel_definitions, scenario.channels))
+    return (*found, "time")
 
 
 def check_numbers(scenario: Scenario, names: Iterable[str]) -> None:

@@ -14,7 +14,15 @@ from support_exudyn.sweeps.measures import check_numbers
 from support_exudyn.sweeps.plan import Inputs, Plan
 from support_exudyn.sweeps.store import Store, StoredRun
 from support_exudyn.sweeps.table import FILE, SweepTable
-from support_exudyn.sweeps.work import Task, Wanted, in_processes, reason_of, refused
+from support_exudyn.sweeps.work import (
+    Task,
+    Wanted,
+    in_processes,
+    in_threads_first,
+    reason_of,
+    refused,
+    suits_threads,
+)
 from user_forces.values.value import InputError
 
 SELDOM = 10.0  # the table is written every so many seconds while runs come in,
@@ -68,7 +76,7 @@ def sweep(
     Arguments:
         plan: what to run and what to note.
         out: folder of the store; made if it is missing. By default NAME_sweep beside the sweep's file.
-        workers: number of processes on this machine, >= 1; as many as there are cores if None.
+        workers: number of threads or processes on this machine, >= 1; as many as there are cores if None.
         scheduler: address of a Dask scheduler, whose workers then run it all.
         retry_failed: run again what has failed before; what was killed is in any case.
         prune: remove what the store holds of other runs than those of the plan, when all is done.
@@ -136,6 +144,8 @@ class _Keeper:
             from support_exudyn.sweeps.cluster import on_cluster
 
             found = on_cluster(tasks, self._store, scheduler)
+        elif suits_threads(first):
+            found = in_threads_first(tasks, self._store, workers)
         else:
             found = in_processes(tasks, self._store, workers)
         with closing(found) as rows:  # also after an interruption processes end before the table is written

@@ -1,23 +1,32 @@
 """What is done for a run of a sweep, and the runs in processes on this machine."""
 
+import tempfile
+import threading
 import time
 from collections.abc import Callable, Generator, Iterable, Iterator
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass, replace
 from itertools import count, islice
 from pathlib import Path
 
 from support_exudyn.files.whole_file import workshop
+from support_exudyn.formulations.registry import formulation
 from support_exudyn.scenario.scenario import Scenario
-from support_exudyn.scene.contract import SimulationError, told
+from support_exudyn.scenario.timescales import rounded
+from support_exudyn.scene.contract import Progress, SimulationError, silent, told
+from support_exudyn.simulation.automatic_settings import covered, settings_for
 from support_exudyn.simulation.result import Result, with_digest
 from support_exudyn.simulation.simulate import simulate
 from support_exudyn.sweeps.key import key
-from support_exudyn.sweeps.measures import numbers
+from support_exudyn.sweeps.measures import channels_of, numbers
+from support_exudyn.sweeps.own_sources import own_sources
 from support_exudyn.sweeps.plan import Inputs, Record
 from support_exudyn.sweeps.store import Store, StoredRun
-from support_exudyn.sweeps.workers import ProcessEndedError, worker_pool
+from support_exudyn.sweeps.workers import ProcessEndedError, keep_memory, worker_pool
 from user_forces.values.value import InputError, cleaned
+
+MOST_RECORDS = 1000  # of a run that is not kept
+THREADS_AHEAD = 2  # runs for each thread, one of them waiting
 
 
 @dataclass(frozen=True)
@@ -59,14 +68,37 @@ class Wanted:
         return row.status == "done" and row.noted == self.record.digest and (whole or not self.record.keep_runs)
 
 
-def computed(task: Task) -> tuple[StoredRun, Result | None]:
+def reduced(scenario: Scenario, record: Record) -> Scenario:
+    """The same run with no more channels and records than its numbers and checks need.
+
+    Numbers come from every step, whatever the records are; those of Exudyn may follow its records, and stay.
+    """
+    if not is_compiled(scenario):
+        return scenario
+    period = max(scenario.recorded_every, rounded(scenario.duration / MOST_RECORDS, 0.0))
+    channels = scenario.channels if not record.numbers else channels_of(record.numbers, scenario)
+    return replace(scenario, channels=channels, record_period=min(period, scenario.duration))
+
+
+def is_compiled(scenario: Scenario) -> bool:
+    """Whether the run is integrated by compiled code."""
+    if scenario.formulation == "auto":
+        try:
+            scenario = settings_for(scenario, scenario.goal) if scenario.goal else covered(scenario)
+        except InputError:  # which is the reason of its row
+            return False
+    return formulation(scenario.formulation).name == "compiled"
+
+
+def computed(task: Task, progress: Progress = silent) -> tuple[StoredRun, Result | None]:
     """Run it. The Result is None if it fails, whatever the reason is, which the row tells.
 
     A law of one's own may do anything; KeyboardInterrupt alone ends all runs.
     """
     began = time.perf_counter()
     try:
-        result = simulate(task.scenario, errors=task.errors)
+        scenario = task.scenario if task.record.keep_runs else reduced(task.scenario, task.record)
+        result = simulate(scenario, errors=task.errors, progress=progress)
         return row_of(task, result), result
     except KeyboardInterrupt:
         raise
@@ -103,13 +135,13 @@ def run_into(store: Store, task: Task) -> StoredRun:
     return _put(store, *_row_and_image(store, task))
 
 
-def _row_and_image(store: Store, task: Task) -> tuple[StoredRun, bytearray | None]:
+def _row_and_image(store: Store, task: Task, progress: Progress = silent) -> tuple[StoredRun, bytearray | None]:
     if task.again:
         try:
             return row_of(task, Result.load(store.run_file(task.key))), None
         except (InputError, FileNotFoundError):  # damaged since, and in a way that its size and age do not tell
             pass
-    row, result = computed(task)
+    row, result = computed(task, progress)
     return row, image_of(task, result)
 
 
@@ -127,16 +159,17 @@ Chunk = tuple[float, list[StoredRun]]  # how long it took [s], and its rows
 def in_processes(tasks: Iterable[Task], store: Store, workers: int) -> Generator[StoredRun, None, None]:
     """Rows as they come; each process puts its runs into the store by itself.
 
-    Small runs are sent many at a time. Of a chunk whose process ends each run is tried by itself; if its
+    Small runs are sent many at a time. Of those whose process ends each is tried by itself in the end; if its
     process ends again its row is "killed".
 
     workers: number of processes, >= 1.
     """
     source = iter(tasks)
     under_way: dict[int, list[Task]] = {}
+    lost: list[Task] = []
     size = 1  # of a chunk, by what the last one took
 
-    def jobs() -> Iterator[tuple[Store, list[Task]]]:
+    def chunks() -> Iterator[tuple[Store, list[Task]]]:
         for number in count():
             if not (chunk := list(islice(source, size))):
                 return
@@ -144,23 +177,19 @@ def in_processes(tasks: Iterable[Task], store: Store, workers: int) -> Generator
             yield store, chunk
 
     with worker_pool(workers) as pool:
-        while True:
-            apart: list[Task] = []
-            for place, found in pool.stream(jobs(), _do):
-                chunk = under_way.pop(place)
-                if isinstance(found, ProcessEndedError):
-                    if len(chunk) > 1:
-                        apart += chunk
-                    else:
-                        yield StoredRun(chunk[0].key, "killed", found.reason)
-                else:
-                    seconds, ended = found
-                    if not apart:
-                        size = max(1, min(MOST, int(LONG * len(chunk) / max(seconds, 1e-9))))
-                    yield from ended
-            if not apart:
-                return
-            source, size = iter(apart), 1
+        for number, found in pool.stream(chunks(), _do):
+            chunk = under_way.pop(number)
+            if isinstance(found, ProcessEndedError):
+                lost += chunk
+            else:
+                seconds, ended = found
+                size = max(1, min(MOST, int(LONG * len(chunk) / max(seconds, 1e-9))))
+                yield from ended
+        for number, found in pool.stream([(store, [task]) for task in lost], _do, alone=True):
+            if isinstance(found, ProcessEndedError):
+                yield StoredRun(lost[number].key, "killed", found.reason)
+            else:
+                yield from found[1]
 
 
 def _do(place: int, store: Store, tasks: list[Task]) -> Chunk:
@@ -174,6 +203,66 @@ def _do(place: int, store: Store, tasks: list[Task]) -> Chunk:
             rows.append(writer.submit(_put, store, row, image, within))
         ended = [row.result() for row in rows]
     return time.perf_counter() - began, ended
+
+
+# --- in threads ---
+
+
+def suits_threads(task: Task) -> bool:
+    """Whether a run goes well in a thread: compiled, and without own classes, which may do anything."""
+    return is_compiled(task.scenario) and not own_sources(task.scenario.plain)
+
+
+def in_threads_first(tasks: Iterable[Task], store: Store, workers: int) -> Generator[StoredRun, None, None]:
+    """Rows as they come: first of all runs that suit threads, then of the others from processes."""
+    others: list[Task] = []
+
+    def suiting() -> Iterator[Task]:
+        for task in tasks:
+            if suits_threads(task):
+                yield task
+            else:
+                others.append(task)
+
+    yield from in_threads(suiting(), store, workers)
+    if others:
+        yield from in_processes(others, store, workers)
+
+
+def in_threads(tasks: Iterable[Task], store: Store, workers: int) -> Generator[StoredRun, None, None]:
+    """Rows as they come, of runs by compiled code, which threads of this process integrate side by side.
+
+    An interruption ends them in mid-work. workers: number of threads, >= 1.
+    """
+    keep_memory()
+    source, ended = iter(tasks), threading.Event()
+
+    def check(share: float) -> None:
+        del share
+        if ended.is_set():
+            raise KeyboardInterrupt
+
+    def do(task: Task) -> StoredRun:
+        check(0.0)
+        folder = getattr(local, "folder", None)
+        if folder is None:
+            local.folder = folder = Path(tempfile.mkdtemp(dir=within))
+        return _put(store, *_row_and_image(store, task, check), folder)
+
+    with workshop(store.folder) as within, ThreadPoolExecutor(workers) as pool:
+        local = threading.local()
+        under_way: set[Future[StoredRun]] = set()
+        try:
+            while True:
+                further = islice(source, THREADS_AHEAD * workers - len(under_way))
+                under_way |= {pool.submit(do, task) for task in further}
+                if not under_way:
+                    return
+                finished, under_way = wait(under_way, return_when=FIRST_COMPLETED)
+                for one in finished:
+                    yield one.result()
+        finally:
+            ended.set()
 
 
 def refused(error: Exception) -> StoredRun:

@@ -1,8 +1,9 @@
 """Processes that work side by side, and end with the one that started them.
 
-The pool of `concurrent.futures` is broken as a whole when one of its processes ends, killed or by a crash. Here
-the jobs that were under way are then done once more, one at a time in a process of their own, and all others go
-on in a new pool. A job whose process ends again has an error of its own.
+Each is a pool of `concurrent.futures` of its own with one process: if that ends, killed or by a crash, no other
+loses its work, and whose work it did is known. The pools of several processes of the standard library and of
+loky are broken as a whole then and do not tell which job it was; that of pebble waits for ever for a job that
+leaves with exit code 0.
 """
 
 from __future__ import annotations
@@ -13,11 +14,11 @@ import os
 import signal
 import sys
 import threading
-import time
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, MutableSequence, Sequence
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager, suppress
+from functools import partial
 from multiprocessing.util import Finalize
 from typing import Any, NamedTuple, TypeVar
 
@@ -26,20 +27,18 @@ from support_exudyn.formulations.interruption import kept_from_children
 T = TypeVar("T")
 
 CONTEXT = multiprocessing.get_context("spawn")  # the engine does not survive a fork
-AHEAD = 2  # jobs for each process, one of them waiting
 POLL = 0.1  # how often progress is reported [s]
 NOT_BEGUN = -1.0  # in place of the share of a job that waits
-MOMENT = 0.2  # [s]
 TRIM_THRESHOLD, MMAP_THRESHOLD = -1, -3  # of mallopt of glibc
 KEPT = 2**26  # bytes that a process keeps
 
-# in a worker: the shared array of shares done, and the place in it of the job at work
+# in a worker: the shared array of shares done, and its place in it
 _shares: Any = None
-_slot = 0
+_place = 0
 
 
 class ProcessEndedError(RuntimeError):
-    """The process of a job ended, killed or by a crash, and so did another that had nothing but this job.
+    """The process of a job ended, killed or by a crash.
 
     place: of the job, from 0. share: that was done when it was last reported.
     """
@@ -65,29 +64,32 @@ class NoProcessError(RuntimeError):
 
 
 class _Job(NamedTuple):
-    """A job under way: its number, its arguments, and where its share is reported."""
+    """A job under way: its number, its arguments, and which process does it."""
 
     number: int
     given: tuple[Any, ...]
-    slot: int
+    place: int
 
 
 Tell = Callable[[Mapping[int, float]], None]  # receives the shares done of the jobs under way, by number
 
 
 class Workers:
-    """A pool of processes. Starting them takes seconds, so several sweeps share one.
+    """Processes for several sweeps, for starting them takes seconds; each is started when it is needed.
 
     The function that does a job is one of a module, and is called with the job's number, from 0, and its
     arguments, which must be picklable; it may call `report`. A job that raises ends all, those that wait are
     dropped, and its exception is raised here. NoProcessError is raised if processes end before they begin any
     job.
+
+    Arguments:
+        shares: where jobs report, a number for each process.
+        pool: makes a pool of one process.
     """
 
-    def __init__(self, pool: Executor, shares: Any, size: int = 1) -> None:
-        self._pool = pool
-        self._shares = shares
-        self._size = size
+    def __init__(self, shares: MutableSequence[float], pool: Callable[[], Executor]) -> None:
+        self._shares, self._pool = shares, pool
+        self._pools: list[Executor | None] = [None] * len(shares)
 
     def run(
         self,
@@ -98,8 +100,10 @@ class Workers:
     ) -> list[T]:
         """What `work` returns for every job, in their order; they are started in that order too.
 
+        A job whose process ends is done once more when all others are done, without any other beside it.
+
         progress: receives the share done of every job ten times a second. ended: gives what to return for a job
-        whose process ended; without it the first such error is raised when all others are done.
+        whose process ended again; without it the first such error is raised when all others are done.
         """
         found: dict[int, T | ProcessEndedError] = {}
 
@@ -114,113 +118,105 @@ class Workers:
             return ended(one)
 
         found.update(self.stream(jobs, work, tell))
+        lost = [n for n in range(len(jobs)) if isinstance(found[n], ProcessEndedError)]
+        for n in lost:
+            del found[n]
+        found.update(self.stream([jobs[n] for n in lost], work, tell, lost, alone=True))
         if jobs:
             tell({})
         return [result(found[n]) for n in range(len(jobs))]
 
     def stream(
-        self, jobs: Iterable[tuple[Any, ...]], work: Callable[..., T], tell: Tell | None = None
+        self,
+        jobs: Iterable[tuple[Any, ...]],
+        work: Callable[..., T],
+        tell: Tell | None = None,
+        numbers: Iterable[int] | None = None,
+        *,
+        alone: bool = False,
     ) -> Iterator[tuple[int, T | ProcessEndedError]]:
         """Number of a job and what `work` returns, as each ends; for any number of jobs.
 
-        Jobs are taken as there is room for them, and nothing is held of those that have ended.
+        Jobs are taken as there is room for them, and nothing is held of those that have ended. Of a job whose
+        process ends the error comes in place of what `work` returns.
 
-        tell: receives the shares done of the jobs under way, by number, ten times a second.
+        Arguments:
+            tell: receives the shares done of the jobs under way, by number, ten times a second.
+            numbers: of the jobs; from 0 on if None.
+            alone: whether jobs are done one after the other.
         """
-        source = enumerate(jobs)
-        free = list(range(AHEAD * self._size))
+        source = enumerate(jobs) if numbers is None else zip(numbers, jobs, strict=True)
+        free = list(range(1 if alone else len(self._pools)))[::-1]
         held: dict[Future[T], _Job] = {}
         try:
             while True:
-                lost: list[_Job] = []
-                while free and not lost and (item := next(source, None)):
+                while free and (item := next(source, None)):
                     job = _Job(*item, free.pop())
-                    try:
-                        held[self._submit(job, work)] = job
-                    except BrokenProcessPool:
-                        lost.append(job)
-                if not held and not lost:
+                    held[self._submit(job, work)] = job
+                if not held:
                     return
-                finished = self._ended(held, tell, whole=bool(lost))
-                if any(map(_is_broken, finished)):  # then all that are under way end now
-                    finished = self._ended(held, None, whole=True)
-                for future in finished:
+                for future in self._ended(held, tell):
                     job = held.pop(future)
-                    if _is_broken(future):
-                        lost.append(job)
+                    free.append(job.place)
+                    if isinstance(future.exception(), BrokenProcessPool):
+                        yield job.number, self._lost(job)
                     else:
-                        free.append(job.slot)
                         yield job.number, future.result()
-                if not lost:
-                    continue
-                self._renew(1)
-                try:
-                    for job in sorted(lost):
-                        free.append(job.slot)
-                        yield job.number, self._alone(job, work, tell)
-                finally:
-                    self._renew(self._size)
         finally:
             for future in held:
                 future.cancel()
 
     def _submit(self, job: _Job, work: Callable[..., T]) -> Future[T]:
-        self._shares[job.slot] = NOT_BEGUN
-        with kept_from_children():  # they are started here
+        self._shares[job.place] = NOT_BEGUN
+        doing = partial(_do, job.place, work, job.number, job.given)
+        with kept_from_children():  # a process is started here
             try:
-                return self._pool.submit(_do, job.slot, work, job.number, job.given)
-            except OSError as error:  # a process ended while another was being started
-                time.sleep(MOMENT)
-                raise BrokenProcessPool from error
+                return self._of(job.place).submit(doing)
+            except (BrokenProcessPool, OSError):  # it ended while it had no work
+                return self._renewed(job.place).submit(doing)
 
-    def _ended(self, held: Mapping[Future[T], _Job], tell: Tell | None, whole: bool) -> set[Future[T]]:
-        """Wait until any of the jobs has ended, or all of them, and report meanwhile how far they are."""
-        waiting: set[Future[T]] = set(held)
-        while waiting:
-            _, waiting = wait(waiting, None if tell is None else POLL, FIRST_COMPLETED)
+    def _of(self, place: int) -> Executor:
+        found = self._pools[place]
+        if found is None:
+            found = self._pools[place] = self._pool()
+        return found
+
+    def _renewed(self, place: int) -> Executor:
+        """Another process in place of one that has ended."""
+        self._of(place).shutdown(wait=False, cancel_futures=True)
+        self._pools[place] = None
+        return self._of(place)
+
+    def _ended(self, held: Mapping[Future[T], _Job], tell: Tell | None) -> set[Future[T]]:
+        """Wait until any of the jobs has ended, and report meanwhile how far they are."""
+        while True:
+            finished, _ = wait(held, None if tell is None else POLL, FIRST_COMPLETED)
             if tell is not None:
-                tell({job.number: self._share(job) for job in held.values()})
-            if not whole and len(waiting) < len(held):
-                break
-        return set(held) - waiting
+                tell({job.number: max(0.0, self._shares[job.place]) for job in held.values()})
+            if finished:
+                return finished
 
-    def _alone(self, job: _Job, work: Callable[..., T], tell: Tell | None) -> T | ProcessEndedError:
-        """Do a job that was under way when a process ended by itself, until it has been begun twice."""
-        for _ in range(2 if self._shares[job.slot] == NOT_BEGUN else 1):
+    def _lost(self, job: _Job) -> ProcessEndedError:
+        """The error of a job whose process has ended; raises NoProcessError if none can be started."""
+        share = self._shares[job.place]
+        pool = self._renewed(job.place)
+        if share == NOT_BEGUN:
             try:
                 with kept_from_children():
-                    self._pool.submit(int).result()  # so that a process can be started at all
+                    pool.submit(int).result()
             except (BrokenProcessPool, OSError):
                 raise NoProcessError from None
-            try:
-                future = self._submit(job, work)
-                self._ended({future: job}, tell, whole=True)
-                return future.result()
-            except BrokenProcessPool:
-                self._renew(1)
-        return ProcessEndedError(job.number, self._share(job))
-
-    def _share(self, job: _Job) -> float:
-        """The share of a job that is done."""
-        return max(0.0, float(self._shares[job.slot]))
-
-    def _renew(self, size: int) -> None:
-        """Go on with so many new processes."""
-        self._pool.shutdown(wait=False, cancel_futures=True)
-        self._pool = _pool(size, self._shares)
+        return ProcessEndedError(job.number, max(0.0, share))
 
     def close(self) -> None:
         """Drop what waits, and wait for the processes to end."""
-        self._pool.shutdown(cancel_futures=True)
-
-
-def _is_broken(future: Future[Any]) -> bool:
-    return isinstance(future.exception(), BrokenProcessPool)
+        for pool in filter(None, self._pools):
+            pool.shutdown(cancel_futures=True)
 
 
 @contextmanager
 def worker_pool(workers: int | Workers) -> Iterator[Workers]:
-    """A pool of so many processes, or the one that is there already.
+    """So many processes, or those that are there already.
 
     If the block ends with an exception the processes that it started end at once, in mid-work.
     """
@@ -228,9 +224,8 @@ def worker_pool(workers: int | Workers) -> Iterator[Workers]:
         yield workers
         return
     strangers = set(multiprocessing.active_children())
-    size = max(1, workers)
-    shares = CONTEXT.Array("d", AHEAD * size, lock=False)
-    pool = Workers(_pool(size, shares), shares, size)
+    shares = CONTEXT.Array("d", max(1, workers), lock=False)
+    pool = Workers(shares, lambda: ProcessPoolExecutor(1, CONTEXT, _start, (shares,)))
     try:
         yield pool
     except BaseException:
@@ -241,17 +236,13 @@ def worker_pool(workers: int | Workers) -> Iterator[Workers]:
         pool.close()
 
 
-def _pool(size: int, shares: Any) -> Executor:
-    return ProcessPoolExecutor(size, CONTEXT, _start, (shares,))
-
-
 # --- in a worker ---
 
 
 def report(share: float) -> None:
     """Report that so much of the job at work is done, 0 to 1; elsewhere than in a worker nothing happens."""
     if _shares is not None:
-        _shares[_slot] = share
+        _shares[_place] = share
 
 
 def _start(shares: Any) -> None:
@@ -263,9 +254,9 @@ def _start(shares: Any) -> None:
     threading.Thread(target=_end_with_parent, daemon=True).start()
 
 
-def _do(slot: int, work: Callable[..., T], number: int, given: tuple[Any, ...]) -> T:
-    global _slot
-    _slot = slot
+def _do(place: int, work: Callable[..., T], number: int, given: tuple[Any, ...]) -> T:
+    global _place
+    _place = place
     report(0.0)  # it has begun
     return work(number, *given)
 

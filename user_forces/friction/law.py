@@ -90,17 +90,22 @@ class FrictionLaw(Value, ABC):
         """Deflection [m] of a slip [m/s] that has lasted long: that of a joint which moves at the start."""
         return self.next_deflection(0.0, slip, LONG)
 
+    @cached_property
+    def _coefficients(self) -> tuple[float, ...]:
+        """Ratios of friction to normal force at SLIPS, of a law without a state."""
+        return tuple(abs(self(slip, 1.0)) for slip in SLIPS)
+
     @property
     def largest_coefficient(self) -> float:
         """Largest ratio of friction to normal force at any of SLIPS, of a law without a state."""
-        return float(max(abs(self(slip, 1.0)) for slip in SLIPS))
+        return max(self._coefficients)
 
     def slip_speed(self, share: float) -> float:
         """Smallest slip [m/s] with this share of the largest coefficient; 0 of a law with a state."""
         wanted = 0.0 if self.has_state else share * self.largest_coefficient
         if wanted == 0.0:
             return 0.0
-        first = next(n for n, slip in enumerate(SLIPS) if abs(self(slip, 1.0)) >= wanted)
+        first = next(n for n, coefficient in enumerate(self._coefficients) if coefficient >= wanted)
         low, high = float(SLIPS[max(0, first - 1)]), float(SLIPS[first])
         for _ in range(HALVINGS):
             middle = 0.5 * (low + high)

@@ -13,7 +13,6 @@ from support_exudyn.mechanics.joint_friction import friction_series
 from support_exudyn.mechanics.observed_run import Trajectory
 from support_exudyn.mechanics.reactions import joint_forces
 from support_exudyn.mechanics.trajectory import OilEvent, Series
-from support_exudyn.scenario.recorded_channels import needs
 from support_exudyn.scene.arrays import LOSSES, MEMORY, Matrix
 from support_exudyn.scene.hydraulics.series import leg_series
 from support_exudyn.scene.setup import Model
@@ -57,10 +56,11 @@ class _Records:
         self.courses = courses.reshape(len(rows), scene.courses.size, 2)
 
 
-def trajectory(model: Model, rows: Matrix, oil_events: Mapping[str, tuple[OilEvent, ...]]) -> Trajectory:
-    """The run at its records."""
+def trajectory(
+    model: Model, rows: Matrix, oil_events: Mapping[str, tuple[OilEvent, ...]], needed: DataNeeds
+) -> Trajectory:
+    """The run at its records, as far as it is needed."""
     scenario, linkage, found = model.scenario, model.scenario.linkage, _Records(model, rows)
-    needed = needs(scenario)
     motion = BodyMotion(linkage, found.position, found.velocity)
     still = np.zeros_like(found.time)
     course = {name: n for n, name in enumerate((*model.drives, *model.valves))}

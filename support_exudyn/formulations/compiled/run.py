@@ -144,7 +144,7 @@ class _Run:
             rows = np.concatenate([self.rows[:1], nodes[: OF_STEP * count]])
             time = rows[1:, 0].reshape(count, OF_STEP).copy()
             rows[1:, 0] = within_steps(time).ravel()
-            self.statistics.add(time, trajectory(self.model, rows, _oil_events(self)))
+            self.statistics.add(time, trajectory(self.model, rows, _oil_events(self), self.statistics.needs))
             nodes[0], self.report[NODES] = nodes[OF_STEP * count], 0.0
 
     def stop_before_first_nan(self) -> None:
@@ -199,7 +199,7 @@ def _outcome(going: _Run) -> Outcome:
         impacts[model.contacts[int(number)]].append(Onset(*onset))
     contacts, events = model.scene.contacts, _oil_events(going)
     return Outcome(
-        trajectory=trajectory(model, going.rows, events),
+        trajectory=trajectory(model, going.rows, events, needs(going.scenario)),
         onsets={name: tuple(found) for name, found in impacts.items()},
         largest_force=dict(zip(model.contacts, contacts["largest"].tolist(), strict=True)),
         largest_force_time=dict(zip(model.contacts, contacts["largest_at"].tolist(), strict=True)),

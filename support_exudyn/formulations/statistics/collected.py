@@ -5,6 +5,8 @@ Records are for curves; means, deviations and extremes do not depend on how many
 
 import math
 from collections.abc import Mapping
+from functools import reduce
+from operator import or_
 
 import numpy as np
 import numpy.typing as npt
@@ -12,6 +14,7 @@ import numpy.typing as npt
 from support_exudyn.formulations.statistics.ends import between_ends
 from support_exudyn.formulations.statistics.magnitudes import divided
 from support_exudyn.formulations.statistics.steps import NODES, OF_STEP, add_steps
+from support_exudyn.mechanics.channels import DataNeeds
 from support_exudyn.mechanics.observed_run import Trajectory
 from support_exudyn.mechanics.time_statistics import COLUMNS, LAST, TimeStatistics
 from support_exudyn.mechanics.trajectory import Series
@@ -60,6 +63,7 @@ class RunStatistics:
     def __init__(self, scenario: Scenario) -> None:
         self._scenario = scenario
         self.wanted = {name: one for name, one in asked_definitions(scenario).items() if name != "time"}
+        self.needs = reduce(or_, (one.needs for one in self.wanted.values()), DataNeeds.NOTHING)
         self._vectors = {name: one.vector for name, one in self.wanted.items() if one.vector is not None}
         self._steps = StepStatistics(intervals(scenario.duration))
 
