@@ -132,10 +132,10 @@ def chart(
     from support_exudyn.postprocessing.figures import sweeps as figures
     from support_exudyn.postprocessing.figures.of_runs import joined, save_figures
 
+    runs, folder = SweepRuns(read_table(store)), store if store.is_dir() else store.parent
     if sliders:
         if by or histogram or tornado:
             raise InputError("--sliders: allowed: without --by, --histogram, --tornado")
-        runs, folder = SweepRuns(read_table(store)), _folder(store)
         page = out or folder / "figures"
         page = page if page.suffix == ".html" else page / "sliders.html"
         chosen = _chosen(runs, names) or list(runs.numbers.values())
@@ -145,7 +145,6 @@ def chart(
         raise InputError(f"{' '.join(names)}: allowed: what was varied and a number, or a number alone")
     if histogram + tornado + len(names[:-1]) > 1:
         raise InputError("--histogram, --tornado: allowed: one of them, and a number alone")
-    runs = SweepRuns(read_table(store))
     *before, y = names or [_only_number(list(runs.numbers))]
     with style.look():
         if tornado:
@@ -160,7 +159,6 @@ def chart(
         else:
             drawing = figures.sweep_chart(runs.table, x, y, by)
             name = joined(y, "over", x, f"by_{by}" if by else "")
-        folder = store if store.is_dir() else store.parent
         style.named(drawing, folder.resolve().name)
         say("\n".join(map(str, save_figures({name: drawing}, out, folder / "figures", is_file(out))[name])))
 
