@@ -37,6 +37,7 @@ from support_exudyn import (
 )
 from support_exudyn.files.whole_file import contents, remove_leftovers, whole_file
 from support_exudyn.mechanics.trajectory import Impulse
+from support_exudyn.simulation.to_accuracy import with_measured
 from support_exudyn.sweeps.key import program
 from support_exudyn.sweeps.warm_up import warm_up
 from support_exudyn.sweeps.workers import ProcessEndedError, Workers, worker_pool
@@ -52,6 +53,7 @@ PARTNERS = {
     **dict.fromkeys((OIL_IDEAL, OIL), OIL_IDEAL),
 }  # the ideal pin's case by the case that is compared with it
 CASES = tuple(PARTNERS)
+POSTURE = ("tip.x", "tip.y", "front_column.angle", "rear_column.angle")  # channels that measures are made from
 RECORDS = 5e-4  # time between records of a rise of 2 s; of a longer rise as many records [s]
 TOLERANCE = 1e-6  # in the first of both runs
 THINNED = (2, 4, 5)  # every so many records are left for the error of records
@@ -74,7 +76,8 @@ def scenario(sample: Sample, case: str, support: HydraulicSupport) -> Scenario:
     ideal = case.startswith(IDEAL)
     loose: Pin = ideal_pin(sample) if ideal else pin(sample, float(case.split()[0]), support)
     drive = (UniformSpeed if "mode 1" in case else CubicStep)(start=during.start, end=during.end)
-    return Scenario(
+    watched_channels = (during.force, during.speed, during.acceleration, *POSTURE)
+    whole = Scenario(
         machine=support,
         drive=drive,
         duration=during.end,
@@ -83,7 +86,9 @@ def scenario(sample: Sample, case: str, support: HydraulicSupport) -> Scenario:
         actuators=oil_columns(sample) if case.endswith("oil") else {},
         formulation="compiled",
         solver=SolverSettings(tolerance=TOLERANCE),
+        channels=watched_channels,
     )
+    return with_measured(whole)
 
 
 def measures(sample: Sample) -> Data:
