@@ -13,7 +13,7 @@ from studies.common.options import Options
 from support_exudyn import Failure, Result, Scenario, SimulationError
 from support_exudyn.commands.command_line import shown_progress
 from support_exudyn.sweeps.key import key
-from support_exudyn.sweeps.parallel_runs import run_all
+from support_exudyn.sweeps.work import run_all
 from support_exudyn.sweeps.workers import Workers
 from user_forces.values.value import InputError
 

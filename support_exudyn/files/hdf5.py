@@ -8,6 +8,7 @@ process on some damaged files, and reads wrong numbers from others.
 from __future__ import annotations
 
 import hashlib
+import threading
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
@@ -21,6 +22,7 @@ from user_forces.values.value import cleaned, short
 
 BLOCK = 512  # bytes; the smallest that HDF5 takes
 READ_AND_WRITE = 1  # a file that is given as its bytes
+ALONE = threading.Lock()  # HDF5 knows files in memory by their names
 TEMPLATES, LARGE = 4, 2**24  # of files that are kept, and bytes from which none is
 HDF5 = b"\x89HDF\r\n\x1a\n"
 TEXT = h5py.string_dtype()
@@ -106,11 +108,12 @@ def file_image(
     """
     outline = tuple((path, one.size, tuple(texts.items())) for path, (one, texts) in series.items())
     large = sum(one.nbytes for one, _ in series.values()) > LARGE
-    template, places = (_without_numbers.__wrapped__ if large else _without_numbers)(outline)
-    with h5py.File(h5f.open_file_image(template, READ_AND_WRITE)) as file:
-        write(file)
-        file.flush()
-        image = bytearray(file.id.get_file_image())
+    with ALONE:
+        template, places = (_without_numbers.__wrapped__ if large else _without_numbers)(outline)
+        with h5py.File(h5f.open_file_image(template, READ_AND_WRITE)) as file:
+            write(file)
+            file.flush()
+            image = bytearray(file.id.get_file_image())
     for place, (values, _) in zip(places, series.values(), strict=True):
         np.frombuffer(image, "<f8", values.size, place)[:] = values
     return image

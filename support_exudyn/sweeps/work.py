@@ -3,7 +3,7 @@
 import tempfile
 import threading
 import time
-from collections.abc import Callable, Generator, Iterable, Iterator
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass, replace
 from itertools import count, islice
@@ -13,16 +13,15 @@ from support_exudyn.files.whole_file import workshop
 from support_exudyn.formulations.registry import formulation
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scenario.timescales import rounded
-from support_exudyn.scene.contract import Progress, SimulationError, silent, told
+from support_exudyn.scene.contract import Failure, Progress, SimulationError, silent, told
 from support_exudyn.simulation.automatic_settings import covered, settings_for
 from support_exudyn.simulation.result import Result, with_digest
 from support_exudyn.simulation.simulate import simulate
-from support_exudyn.sweeps.key import key
+from support_exudyn.sweeps.key import key, own_sources
 from support_exudyn.sweeps.measures import channels_of, numbers
-from support_exudyn.sweeps.own_sources import own_sources
 from support_exudyn.sweeps.plan import Inputs, Record
 from support_exudyn.sweeps.store import Store, StoredRun
-from support_exudyn.sweeps.workers import ProcessEndedError, keep_memory, worker_pool
+from support_exudyn.sweeps.workers import ProcessEndedError, Workers, keep_memory, report, worker_pool
 from user_forces.values.value import InputError, cleaned
 
 MOST_RECORDS = 1000  # of a run that is not kept
@@ -268,3 +267,58 @@ def in_threads(tasks: Iterable[Task], store: Store, workers: int) -> Generator[S
 def refused(error: Exception) -> StoredRun:
     """The row of a point of which there can be no run."""
     return StoredRun("", "failed", reason_of(error))
+
+
+# --- a few runs whose results stay in memory ---
+
+Shares = Callable[[Mapping[str, float]], None]  # is told the share done of every run, by name
+
+ADVICE = (
+    "Look at the memory that the run takes: it is less with fewer channels or records. Run fewer side by side, "
+    "or run it by itself."
+)
+
+
+def _run(place: int, scenario: Scenario, file: Path | None) -> Result | Failure:
+    result = simulate(scenario, progress=report, throw=False)
+    if file is not None and isinstance(result, Result):
+        result.save(file)
+    return result
+
+
+def _ignore(shares: Mapping[str, float]) -> None:
+    del shares
+
+
+def run_all(
+    scenarios: Mapping[str, Scenario],
+    *,
+    workers: int | Workers = 2,
+    progress: Shares = _ignore,
+    files: Mapping[str, Path] | None = None,
+) -> dict[str, Result | Failure]:
+    """Run scenarios in parallel processes; the order given is the order in which they are started.
+
+    Arguments:
+        scenarios: what to run, by name.
+        workers: number of processes, >= 1, or the pool to use.
+        progress: called about ten times a second.
+        files: where a run is written as soon as it has ended, by its name; none by default.
+
+    Returns:
+        For each name its Result, or the Failure that says why there is none: also of a run whose process was
+        killed or crashed. Any other exception in a run (a bug, an interruption) ends all of them.
+    """
+    chosen = list(scenarios.values())
+    jobs = [(scenario, (files or {}).get(name)) for name, scenario in scenarios.items()]
+
+    def told(shares: list[float]) -> None:
+        progress(dict(zip(scenarios, shares, strict=True)))
+
+    def ended(error: ProcessEndedError) -> Failure:
+        return Failure(error.reason, ADVICE, error.share * chosen[error.place].duration)
+
+    number = workers if isinstance(workers, Workers) else min(workers, len(scenarios))
+    with worker_pool(number) as pool:
+        results = pool.run(jobs, _run, told, ended)
+    return dict(zip(scenarios, results, strict=True))

@@ -11,7 +11,7 @@ import pytest
 
 from support_exudyn import Result, Scenario
 from support_exudyn.__main__ import main
-from support_exudyn.scene.contract import Failure, SimulationError
+from support_exudyn.scene.contract import Failure, Progress, SimulationError
 from support_exudyn.sweeps import SweepOutcome, read_sweep, read_table, sweep, work
 from support_exudyn.sweeps.run import known
 from support_exudyn.sweeps.store import Store
@@ -178,10 +178,10 @@ def test_refused_and_failed_runs_are_rows_with_their_reason(
 ) -> None:
     real = work.simulate
 
-    def simulate(scenario: Scenario, errors: bool) -> Result:
+    def simulate(scenario: Scenario, errors: bool, progress: Progress) -> Result:
         if scenario.machine.speed == 0.2:  # type: ignore[attr-defined]
             raise SimulationError(Failure("the journal is lost", "Look there.", 0.01))
-        return real(scenario, errors=errors)
+        return real(scenario, errors=errors, progress=progress)
 
     monkeypatch.setattr(work, "simulate", simulate)
     path = write_sweep(tmp_path, '"machine.speed_m_per_s" = [0.1, -0.5, 0.2]')

@@ -14,7 +14,6 @@ from support_exudyn.files import read_scenario
 from support_exudyn.model.drives.drive import CubicStep
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.sweeps import key as keys
-from support_exudyn.sweeps import own_sources
 
 STAND = """
 duration_s = 0.02
@@ -94,8 +93,8 @@ def test_a_key_depends_on_what_a_law_of_ones_own_imports(
     import_module("packed_laws.beside").late()
 
     def found() -> dict[str, str]:
-        own_sources._source.cache_clear()
-        return own_sources.own_sources(law)
+        keys._source.cache_clear()
+        return keys.own_sources(law)
 
     whole = found()
     assert whole.keys() == {"packed_laws.law"}
@@ -106,4 +105,4 @@ def test_a_key_depends_on_what_a_law_of_ones_own_imports(
         assert (found() != whole) == (file in NEEDED), file
         (tmp_path / file).write_text(text, encoding="utf-8")
     assert found() == whole
-    own_sources._source.cache_clear()
+    keys._source.cache_clear()

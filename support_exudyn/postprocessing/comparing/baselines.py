@@ -27,8 +27,7 @@ from support_exudyn.simulation.estimate import Estimate, horizon
 from support_exudyn.simulation.provenance import provenance
 from support_exudyn.simulation.result import Result
 from support_exudyn.simulation.simulate import simulate
-from support_exudyn.sweeps.key import program
-from support_exudyn.sweeps.own_sources import own_sources
+from support_exudyn.sweeps.key import own_sources, program
 from user_forces.values.value import InputError, cleaned
 
 FOLDER, ENDING = "baseline", ".json"  # of baselines next to scenarios and tests
