@@ -11,7 +11,7 @@ from typing import Annotated
 from pydantic import Field
 
 from studies.common.subject import without_clearance
-from support_exudyn import ClearancePin, HydraulicCylinder, IdealPin, Scenario
+from support_exudyn import ClearancePin, HydraulicCylinder, IdealPin
 from support_exudyn.files.machines.read import read_machine
 from support_exudyn.files.scenarios.short_joints import ShortPin, pin_in_machine
 from support_exudyn.files.toml.reading import read_value
@@ -22,7 +22,7 @@ from support_exudyn.model.actuators import bore_area
 from support_exudyn.model.hydraulics.elements import PumpStation
 from user_forces.values.sourced import SourcedNumber
 from user_forces.values.units import Metres, Newtons, Pascals
-from user_forces.values.value import InputError, Positive, Value, value
+from user_forces.values.value import Positive, Value, value
 
 FILE = "support_legs.toml"
 PAIRS = ("front_column", "rear_column")
@@ -85,9 +85,7 @@ class SourcedLegs:
     sourced: Mapping[str, SourcedNumber]
 
     def of(self, machine: str) -> SupportLegs:
-        """The legs of a machine that comes with the package. Raises InputError if there are none."""
-        if machine not in ("reference", "zf18000"):
-            raise InputError(f"legs of {machine!r}: there are none; allowed: 'reference', 'zf18000'")
+        """The legs of "reference" or "zf18000", machines that come with the package."""
         found: SupportLegs = getattr(self.file, machine)
         return found
 
@@ -120,11 +118,6 @@ def support_legs(machine: str, *, valve: bool = True) -> dict[str, HydraulicCyli
     held = replace(full, check_valve=None, line=None, end_stops=None)
     leg = held if valve else replace(held, yield_valve=None)
     return dict.fromkeys(PAIRS, leg)
-
-
-def on_legs(scenario: Scenario, machine: str, *, valve: bool = True) -> Scenario:
-    """The scenario on the legs of a machine, which follow no drive."""
-    return replace(scenario, actuators=support_legs(machine, valve=valve))
 
 
 @cache
