@@ -21,7 +21,7 @@ from support_exudyn.files.series.stamps import is_stamp, read_stamps
 from support_exudyn.files.series.table_layout import TableLayout
 from support_exudyn.files.series.text_tables import columns_of, text_of
 from support_exudyn.files.series.units import is_called_time, read_unit, split_title
-from user_forces.values.value import InputError
+from user_forces.values.value import InputError, short
 
 FIRST = re.compile(rb"(\xef\xbb\xbf)?\s*LabVIEW Measurement\b", re.IGNORECASE)
 END = "***End_of_Header***"
@@ -125,17 +125,24 @@ def _channels(
     rows = [row if row.strip() else "" for row in rows]
     if not any(rows):
         return
-    point = _tag(tags, "Decimal_Separator", 0, ".")
+    if (point := _tag(tags, "Decimal_Separator", 0, ".")) not in (".", ","):
+        raise InputError(f"{path}: Decimal_Separator {short(point)}; allowed: a point or a comma")
     named = [split_title(one) for one in titles]
     how = TableLayout(separator, point, start + 1, tuple(one[:2] for one in named), ("number",) * len(titles))
     columns = columns_of(path, ("\n" * (start + 1) + "\n".join(rows)).encode(), how)
     kind = _tag(tags, "X_Columns", 0, "One").casefold()
     for n, place_of in enumerate(range(1, len(columns), 2 if kind == "multi" else 1)):
         column = columns[place_of]
-        x0, step = (
-            float(_tag(tags, key, n, usual).replace(point, "."))
-            for key, usual in (("X0", "0"), ("Delta_X", "1"))
-        )
+        try:
+            x0, step = (
+                float(_tag(tags, key, n, usual).replace(point, "."))
+                for key, usual in (("X0", "0"), ("Delta_X", "1"))
+            )
+        except ValueError:
+            raise InputError(
+                f"{path}: line {start}: X0 or Delta_X of {short(column.name)} above it is no number; allowed: "
+                f"numbers such as 0{point}01"
+            ) from None
         time = columns[place_of - 1 if kind == "multi" else 0].values
         if kind == "no" or np.isnan(time).all():
             time = x0 + step * np.arange(column.values.size, dtype=np.float64)

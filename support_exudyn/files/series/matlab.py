@@ -158,7 +158,7 @@ def _of_rate(tree: Tree, rate: float | None) -> list[tuple[Column, list[Column]]
     numbers = {
         name.casefold(): one.item()
         for name, one in tree.items()
-        if isinstance(one, np.ndarray) and one.size == 1
+        if isinstance(one, np.ndarray) and one.size == 1 and one.dtype.kind in "fiu"
     }
     known = [
         numbers[name] for name in ("fs", "samplerate", "sample_rate", "samplingrate", "rate") if name in numbers

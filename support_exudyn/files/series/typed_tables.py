@@ -27,7 +27,16 @@ from user_forces.values.value import InputError, cleaned, short
 PARQUET, FEATHER, OLD_FEATHER = b"PAR1", b"ARROW1", b"FEA1"
 UNIT = (b"unit", b"units")  # keys of a field's metadata
 MOST = 100_000  # columns
-DAMAGES = (OSError, ValueError, LookupError, TypeError, MemoryError, OverflowError, AttributeError)
+DAMAGES = (
+    OSError,
+    ValueError,
+    LookupError,
+    TypeError,
+    MemoryError,
+    OverflowError,
+    AttributeError,
+    RecursionError,
+)
 
 
 def is_parquet(head: bytes) -> bool:
@@ -204,9 +213,8 @@ def read_workbook(path: Path, asked: Asked) -> SeriesFile:
         )
         sheets = {one.title: one for one in book.worksheets}
     except Exception as error:  # of many kinds, by the archive, its XML and openpyxl
-        raise InputError(
-            f"{path}: is no workbook that can be read ({cleaned(str(error)):.200}); allowed: .xlsx"
-        ) from None
+        said = " ".join(cleaned(str(error)).split())[:200]
+        raise InputError(f"{path}: is no workbook that can be read ({said}); allowed: .xlsx") from None
     if asked.sheet is not None and asked.sheet not in sheets:
         raise InputError(f"{path}: has no sheet {short(asked.sheet)}; allowed: {first_names(sheets)}")
     refused: list[InputError] = []
@@ -231,7 +239,13 @@ def read_workbook(path: Path, asked: Asked) -> SeriesFile:
 
 def _of_sheet(path: Path, sheet: Any) -> Table:
     """The table of a sheet. Raises InputError that names the row of what is no number."""
-    lines = ["\t".join(map(_cell, row)) for row in sheet.iter_rows(values_only=True)]
+    try:
+        lines = ["\t".join(map(_cell, row)) for row in sheet.iter_rows(values_only=True)]
+    except Exception as error:  # of many kinds, by the archive and its XML
+        said = " ".join(cleaned(str(error)).split())[:200]
+        raise InputError(
+            f"{path}: sheet {sheet.title!r} cannot be read ({said}); allowed: a whole one"
+        ) from None
     width = max((len(line.rstrip("\t").split("\t")) for line in lines), default=1)
     empty = min((len(line) - len(line.lstrip("\t")) for line in lines if line.strip("\t")), default=0)
     lines = ["\t".join(line.split("\t")[empty:width]) if line.strip("\t") else "" for line in lines]

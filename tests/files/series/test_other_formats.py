@@ -217,6 +217,8 @@ def test_every_kind_of_labviews_files_is_read(tmp_path: Path) -> None:
     ("old", "new", "message"),
     [
         ("0,6", "O,6", "line 22, column 'Untitled': 'O,6'; allowed: a number such as 12,5"),
+        ("Decimal_Separator\t,", "Decimal_Separator\tx", "Decimal_Separator 'x'; allowed: a point or a comma"),
+        ("Delta_X\t0,001", "Delta_X\tx", "X0 or Delta_X of 'Untitled' above it is no number"),
         ("***End_of_Header***", "", r"has no line \*\*\*End_of_Header\*\*\*; allowed: the whole"),
         ("\n0,000\t0,5\t1,5\n0,001\t0,6\t1,6\thello", "", "has no rows; allowed: titles and one row or more"),
     ],
