@@ -32,10 +32,6 @@ Verdict = Literal["differs", "not decided", "not comparable", "differs within to
 WORST_FIRST: tuple[Verdict, ...] = (
     "differs", "not decided", "differs within tolerance", "agrees", "not comparable",
 )  # fmt: skip
-THAN = {
-    "differs": "more than", "not decided": "not decided by", "differs within tolerance": "not more than",
-    "agrees": "within",
-}  # fmt: skip
 FAILED: tuple[Verdict, ...] = ("differs", "not decided")  # if there is a tolerance
 LARGEST = "largest"  # the measure that is judged
 ANGLE, TURN = "rad", 2.0 * math.pi
@@ -253,23 +249,30 @@ class ComparedChannel:
         known = f"the numerical error of {said(error, row.unit, 2)}"
         verdict: Verdict = "differs"
         if rule is None or rule.is_errors:
-            bound = "the numerical error, which is not known" if math.isnan(times) else known
-            if (rule and math.isnan(times)) or (rule is None and 1.0 < times < CERTAIN):
-                verdict = "not decided"
+            because = f"more than {known}"
+            if math.isnan(times):
+                verdict, because = "not decided" if rule else "differs", "and no numerical error is known"
+            elif rule is None and times < CERTAIN:
+                verdict, because = (
+                    "not decided",
+                    f"{because}, but less than {CERTAIN:g} times, so not certainly",
+                )
         else:
             bound = f"the tolerance of {said(row.tolerance, row.unit, 4)} ({rule.text})"
+            because = f"more than {bound}"
             unsure = error > row.tolerance and apart - error <= row.tolerance
             if math.isnan(apart) or not math.isfinite(error) or unsure:
-                verdict, bound = "not decided", f"{bound} with {known}"
+                known = known if math.isfinite(error) else "an unknown numerical error"
+                verdict, because = "not decided", f"not decided by {bound} with {known}"
             elif apart <= row.tolerance * (1.0 + ROUNDING):
-                verdict = "differs within tolerance"
+                verdict, because = "differs within tolerance", f"not {because}"
         if agrees and (rule is None or rule.is_errors or verdict == "differs within tolerance"):
-            verdict, bound = "agrees", known
+            verdict, because = "agrees", f"within {known}"
         at = f" at {row.time:.6g} s" if math.isfinite(row.time) else ""
         what = "" if row.measure == LARGEST else f"the {row.measure} is "
         reason = (
             f"{what}{row.other:.9g} {row.unit}{at}, where the reference is {row.reference:.9g}, differs by "
-            f"{said(apart, row.unit, 4)}, {THAN[verdict]} {bound}"
+            f"{said(apart, row.unit, 4)}, {because}"
         )
         if rule is not None and rule.unit == PERCENT and not row.tolerance:
             reason += "; the reference is constant: give an amount with its unit"
