@@ -26,6 +26,7 @@ from support_exudyn.simulation.estimate import (
     SAFETY_OF_WORST,
     SLOWEST,
     SLOWEST_OWN,
+    Estimate,
 )
 from support_exudyn.simulation.reported_numbers import ONSETS, ROUNDING, measures
 from tests.cases.run_cases import FORCE, PIN, loose_support
@@ -299,3 +300,32 @@ def test_a_force_that_is_rounding_of_others_is_not_told_from_zero() -> None:
     for word in ("mean", "std", "largest", "min", "max"):
         number = found[f"front_column.force.{word}"]
         assert abs(number.value) <= number.error <= 2e-12 * exact()[FORCE].max()
+
+
+# --- printed to the first digit of the error ---
+
+
+@pytest.mark.parametrize(
+    ("value", "error", "told"),
+    [
+        (176827.717, 2e3, "177000 ± 2000 N"),
+        (52093.3357, 1.2, "52093 ± 1 N"),
+        (51486.4246123, 7e-6, "51486.424612 ± 7e-06 N"),
+        (3.00986, 9.6e-4, "3.010 ± 0.001 N"),
+        (0.0, 0.5, "0.0 ± 0.5 N"),
+        (12.5, 0.0, "12.5 ± 0 N"),
+        (12.5, math.nan, "12.5 ± nan N"),
+        (1.5, 400.0, "0 ± 400 N"),
+        (1.0, 1e-20, "1.00000000000 ± 1e-20 N"),
+    ],
+)
+def test_no_digit_is_printed_that_the_error_does_not_leave(value: float, error: float, told: str) -> None:
+    assert str(Estimate(value, error, "N")) == told
+
+
+@given(value=st.floats(-1e9, 1e9), error=st.floats(1e-9, 1e6))
+def test_what_is_printed_is_within_the_error(value: float, error: float) -> None:
+    number, _, rest = str(Estimate(value, error, "N")).partition(" ± ")
+    most = max(error, abs(value) * 1e-11)
+    assert abs(float(number) - value) <= 0.51 * 10.0 ** math.ceil(math.log10(1.05 * most))
+    assert float(rest.split()[0]) == pytest.approx(error, rel=0.51)
