@@ -31,7 +31,7 @@ def check(
 
     Args:
         out: Folder of the figure (next to the file, or here), or its file (.png, .pdf, .svg).
-        stroke_mm: By how much the actuators extend from the start on [mm] (what the file says).
+        stroke_mm: By how much the actuators extend from the start on [mm] (that of the file).
     """
     from support_exudyn.postprocessing.checked_machine import CheckedMachine
     from support_exudyn.postprocessing.figures import style

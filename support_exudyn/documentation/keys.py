@@ -107,7 +107,7 @@ class _Keys:
         for rule in schema.get("allOf", ()):  # one of several units is needed
             needed |= {key for one in rule.get("anyOf", ()) for key in one.get("required", ())}
         for keys, kind in grouped:
-            default = "needed" if needed & set(keys) else _said(kind.get("default", ""))
+            default = "needed" if needed & set(keys) else _code(kind.get("default", ""))
             yield KeyRow(keys, self._takes(kind), default, _plain(kind.get("description", "")))
 
     def _takes(self, one: Schema) -> str:
@@ -122,9 +122,9 @@ class _Keys:
             case {"allOf": [first, *_]} if "properties" not in one:
                 return self._takes(first)
             case {"const": item}:
-                return _said(item)
+                return _code(item)
             case {"enum": items}:
-                return ", ".join(map(_said, items))
+                return ", ".join(map(_code, items))
             case {"type": "number" | "integer" as kind}:
                 bounds = " and ".join(f"{sign} {one[word]:g}" for word, sign in LIMITS.items() if word in one)
                 return f"{'a number' if kind == 'number' else 'a whole number'} {bounds}".strip()
@@ -152,7 +152,7 @@ class _Keys:
 
 
 def _unitless(one: Schema) -> str:
-    """What is said of a key, without units."""
+    """The description of a key, without units."""
     return re.sub(r"\[[^]]*\]", "", one.get("description", ""))
 
 
@@ -166,7 +166,7 @@ def _anchor(name: str) -> str:
     return re.sub(r"[\s-]+", "-", re.sub(r"[^\w\s-]", "", name).strip().lower())
 
 
-def _said(item: Any) -> str:
+def _code(item: Any) -> str:
     if item == "":
         return ""
     return f"`{str(item).lower() if isinstance(item, bool) else item}`"

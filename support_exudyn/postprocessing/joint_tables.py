@@ -135,35 +135,37 @@ def _known(number: float) -> float | None:
 
 def stability_table(outlooks: Sequence[PinOutlook]) -> ResultTable:
     """Pin, verdict, growth rate, frequency, travel of the drive there, friction there and the critical one."""
-    header = ("pin", "sliding", ">growth rate", ">frequency", ">worst at", ">friction", ">shakes from")
+    header = ("pin", "sliding", ">growth rate", ">frequency", ">worst at", ">friction", ">vibrates from")
     rows: list[tuple[str, ...]] = []
-    for one, told in zip(outlooks, stability_data(outlooks), strict=True):
+    for one, data in zip(outlooks, stability_data(outlooks), strict=True):
         pin = f"{one.pin}, if it had such play" if one.assumed else one.pin
-        if told["growth_rate_per_s"] is None:
+        if data["growth_rate_per_s"] is None:
             rows.append((pin, "nowhere at rest", "", "", "", "", ""))
             continue
-        shakes = any(found is not None and not found.stable for found in one.found)
+        vibrates = any(found is not None and not found.stable for found in one.found)
         # without rounding where nothing grows
-        growth = min(told["growth_rate_per_s"], 0.0) if one.stable else told["growth_rate_per_s"]
-        critical = told["critical_friction"]
+        growth = min(data["growth_rate_per_s"], 0.0) if one.stable else data["growth_rate_per_s"]
+        critical = data["critical_friction"]
         rows.append((
             pin,
-            "shakes" if shakes else "stable" if one.stable else "in part nowhere at rest",
+            "vibrates" if vibrates else "stable" if one.stable else "in part nowhere at rest",
             f"{growth:.{DIGITS}g} /s",
-            said(told["frequency_Hz"], "Hz", DIGITS) if told["frequency_Hz"] else "none",
-            f"{math.degrees(told['travel']):.0f} deg" if one.turns else f"{1e3 * told['travel']:.0f} mm",
-            f"{told['friction']:.{DIGITS}g}",
+            said(data["frequency_Hz"], "Hz", DIGITS) if data["frequency_Hz"] else "none",
+            f"{math.degrees(data['travel']):.0f} deg" if one.turns else f"{1e3 * data['travel']:.0f} mm",
+            f"{data['friction']:.{DIGITS}g}",
             "none up to 1" if critical is None else f"{critical:.{DIGITS}g}",
         ))  # fmt: skip
-    return ResultTable("do loaded pins shake as they slide? at the worst posture of the stroke", header, rows)
+    return ResultTable(
+        "friction-induced vibration of loaded pins, at the worst posture of the stroke", header, rows
+    )
 
 
 def stability_data(outlooks: Sequence[PinOutlook]) -> list[dict[str, Any]]:
-    """Whether each pin shakes, as plain data in SI; what there is not is None."""
+    """Whether friction makes each pin vibrate, as plain data in SI; missing values are None."""
     found = []
     for one in outlooks:
         pin = None if one.worst is None else one.found[one.worst]
-        told: dict[str, Any] = {
+        data: dict[str, Any] = {
             "pin": one.pin,
             "assumed": one.assumed,
             "stable": one.stable,
@@ -171,7 +173,7 @@ def stability_data(outlooks: Sequence[PinOutlook]) -> list[dict[str, Any]]:
             "critical_friction": _known(one.critical_friction),
         }
         if one.worst is not None and pin is not None:
-            told |= {
+            data |= {
                 "growth_rate_per_s": pin.growth,
                 "frequency_Hz": pin.frequency,
                 "time_s": float(one.times[one.worst]),
@@ -179,7 +181,7 @@ def stability_data(outlooks: Sequence[PinOutlook]) -> list[dict[str, Any]]:
                 "friction": pin.friction,
                 "beyond_painleve": pin.normal_mobility < 0.0,
             }
-        found.append(told)
+        found.append(data)
     return found
 
 

@@ -113,7 +113,7 @@ def _is_vague(name: str, number: Estimate, run: Result, after: float, until: flo
 
 
 def label(name: str) -> str:
-    """The name of a number as it is printed; the largest force over the whole run says so."""
+    """The name of a number as it is printed; the largest force over the whole run with these words."""
     if IMPULSE in name:
         return f"{name}, {NO_PEAK.partition(', ')[2]}"
     return f"{name}, whole run" if name.endswith(WHOLE_RUN) else name

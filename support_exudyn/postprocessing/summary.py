@@ -353,8 +353,10 @@ def words(item: Any) -> str:
     """A value as its name and its parameters, in SI; settings that are none are left out."""
     if isinstance(item, Value):
         fields = {f.name: getattr(item, f.name) for f in dataclasses.fields(item)}  # type: ignore[arg-type]
-        told = ", ".join(f"{name.replace('_', ' ')} {words(v)}" for name, v in fields.items() if v is not None)
-        return f"{type(item).__name__} ({told})" if told else type(item).__name__
+        parameters = ", ".join(
+            f"{name.replace('_', ' ')} {words(v)}" for name, v in fields.items() if v is not None
+        )
+        return f"{type(item).__name__} ({parameters})" if parameters else type(item).__name__
     if isinstance(item, Mapping):
         return ", ".join(f"{name}: {words(v)}" for name, v in item.items()) or "none"
     if isinstance(item, tuple):

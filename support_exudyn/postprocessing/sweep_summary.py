@@ -34,7 +34,7 @@ def counts(runs: SweepRuns) -> str:
 def sweep_tables(runs: SweepRuns, columns: list[str], rest: str = "") -> list[ResultTable]:
     """What varied, what went wrong, what came out, and what that follows.
 
-    columns: of the numbers that are shown. rest: what is said of those that are not.
+    columns: of the numbers that are shown. rest: words on those that are not.
     """
     failed = Counter(reason for reason in runs.column("reason") if reason)
     reasons = [(str(number), reason) for reason, number in failed.most_common(MOST_NAMED)]
@@ -73,8 +73,8 @@ def _what_came_out(runs: SweepRuns, columns: list[str], rest: str) -> ResultTabl
             continue
         unit = readable(one.unit, float(np.abs(one.known).max()))
         cells = [_with_band(each, unit) for each in percentiles(one.known.tolist())] if sampled else []
-        cells = cells or [_said(one.known.mean(), unit)]
-        ends = _said(one.known.min(), unit), _said(one.known.max(), unit)
+        cells = cells or [_rounded(one.known.mean(), unit)]
+        ends = _rounded(one.known.min(), unit), _rounded(one.known.max(), unit)
         rows.append((one.name, unit.name, str(one.known.size), ends[0], *cells, ends[1]))
     band = ", percentiles with their 95 % confidence intervals" if sampled else ""
     if any("- to" in cell or "to -" in cell for row in rows for cell in row):
@@ -118,11 +118,11 @@ def data_of(runs: SweepRuns, columns: list[str]) -> dict[str, Any]:
     return {"runs": len(status), "status": dict(Counter(status)), "varied": runs.varied, "numbers": numbers}
 
 
-def _said(value: float, unit: DisplayUnit) -> str:
+def _rounded(value: float, unit: DisplayUnit) -> str:
     return f"{unit.scale * float(value):.{DIGITS}g}"
 
 
 def _with_band(one: Percentile, unit: DisplayUnit) -> str:
     """A percentile and its interval; a dash where the runs are too few to bound it."""
-    low, high = ("-" if np.isnan(end) else _said(end, unit) for end in (one.low, one.high))
-    return f"{_said(one.value, unit)} ({low} to {high})"
+    low, high = ("-" if np.isnan(end) else _rounded(end, unit) for end in (one.low, one.high))
+    return f"{_rounded(one.value, unit)} ({low} to {high})"

@@ -26,7 +26,7 @@ from user_forces.values.value import InputError
 
 FIRST = 8  # channels of a run without forces
 NO_NAME = re.compile(r"[^\w.-]+")  # what is left out of a file's name
-LONGEST = 80  # letters of what a file's name says of channels
+LONGEST = 80  # letters of the channels in a file's name
 
 
 class RunFigures(NamedTuple):
