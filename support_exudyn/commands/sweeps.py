@@ -8,11 +8,12 @@ from typing import Annotated, Literal
 from cyclopts import Parameter
 
 from support_exudyn.commands.command_line import (
-    FIGURES,
+    PICTURES,
     Json,
     answer,
     at_most,
     is_file,
+    output,
     put,
     say,
     show_table,
@@ -113,7 +114,7 @@ def chart(
     histogram: bool = False,
     tornado: bool = False,
     sliders: bool = False,
-    out: Annotated[Path | None, FIGURES] = None,
+    out: Annotated[Path | None, output(*PICTURES, ".html")] = None,
 ) -> None:
     """Draw, write, and print the names of the files.
 
@@ -126,25 +127,28 @@ def chart(
         tornado: Draw by how much each varied field moves Y.
         sliders: Write a page with a slider for every input, which shows the numbers of the nearest run; of the
             numbers named, or of all.
-        out: Folder of the figure (figures in the store), or its file (.png, .pdf, .svg).
+        out: Folder of the figure or page (figures in the store), or its file (.png, .pdf, .svg; .html).
     """
     from support_exudyn.postprocessing.figures import style
     from support_exudyn.postprocessing.figures import sweeps as figures
     from support_exudyn.postprocessing.figures.of_runs import joined, save_figures
 
+    if sliders and (histogram or tornado or by is not None):
+        raise InputError("--sliders: allowed: without --by, --histogram, --tornado")
+    if histogram + tornado + len(names[:-1]) > 1 and not sliders:
+        raise InputError("--histogram, --tornado: allowed: one of them, and a number alone")
+    if len(names) > 2 and not sliders:
+        raise InputError(f"{' '.join(names)}: allowed: what was varied and a number, or a number alone")
+    is_page = out is not None and is_file(out) and out.suffix.lower() == ".html"
+    if is_file(out) and is_page != sliders:
+        kinds = ".html with --sliders, else " + ", ".join(PICTURES)
+        raise InputError(f"--out {out}: allowed: a file that ends in {kinds}; or a folder, without an ending")
     runs, folder = SweepRuns(read_table(store)), store if store.is_dir() else store.parent
     if sliders:
-        if by or histogram or tornado:
-            raise InputError("--sliders: allowed: without --by, --histogram, --tornado")
-        page = out or folder / "figures"
-        page = page if page.suffix == ".html" else page / "sliders.html"
+        page = out if out is not None and is_page else (out or folder / "figures") / "sliders.html"
         chosen = _chosen(runs, names) or list(runs.numbers.values())
         say(sweep_sliders.write_sliders(runs, chosen, page, folder.resolve().name))
         return
-    if len(names) > 2:
-        raise InputError(f"{' '.join(names)}: allowed: what was varied and a number, or a number alone")
-    if histogram + tornado + len(names[:-1]) > 1:
-        raise InputError("--histogram, --tornado: allowed: one of them, and a number alone")
     *before, y = names or [_only_number(list(runs.numbers))]
     with style.look():
         if tornado:
