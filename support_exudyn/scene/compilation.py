@@ -2,8 +2,8 @@
 
 import hashlib
 import math
-import os
 import sys
+import tempfile
 from collections.abc import Callable
 from contextlib import suppress
 from functools import cache
@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 import numba
+from filelock import FileLock
 from llvmlite import ir
 from numba.extending import intrinsic
 
@@ -19,12 +20,6 @@ from support_exudyn.model.loads.load import ActingLoad
 from user_forces import contact
 from user_forces.kernel import copied, numbers, prepare, reason
 
-try:
-    import fcntl as _fcntl
-except ImportError:  # Windows
-    _fcntl = None  # type: ignore[assignment]
-
-fcntl: Any = _fcntl
 SECONDS = {"compiled": 30}  # that compiling takes
 COMPILED = ("scene", "formulations/compiled", "formulations/statistics")  # folders with compiled functions
 CONSTANTS_OF = (elements,)  # modules of which compiled functions use constants
@@ -121,11 +116,11 @@ def _one_process_at_a_time(dispatcher: Any) -> None:
     """Let processes that need a function at the same time wait for the first, and load what it has compiled."""
     kept: Any = dispatcher._cache
     load, save = kept.load_overload, kept.save_overload
-    locks: list[int] = []
+    locks: list[FileLock] = []
 
     def release() -> None:
         while locks:
-            os.close(locks.pop())
+            locks.pop().release()
 
     def load_or_wait(signature: Any, target: Any) -> Any:
         found = load(signature, target)
@@ -147,19 +142,13 @@ def _one_process_at_a_time(dispatcher: Any) -> None:
     kept.load_overload, kept.save_overload = load_or_wait, save_and_release
 
 
-def _lock(folder: Path, name: str) -> list[int]:
-    """A lock on a function that one process has until it closes it; empty where there are no locks."""
-    if fcntl is None:
-        return []
-    with suppress(OSError):
+def _lock(folder: Path, name: str) -> list[FileLock]:
+    """A lock on a function that one process has until it releases it; empty where there are no locks."""
+    with suppress(OSError, NotImplementedError):  # a folder that is not written to, a disk without locks
         folder.mkdir(parents=True, exist_ok=True)
-        handle = os.open(folder / f"{name}.lock", os.O_RDWR | os.O_CREAT, 0o666)
-        try:
-            fcntl.flock(handle, fcntl.LOCK_EX)
-        except OSError:  # a disk without locks
-            os.close(handle)
-            raise
-        return [handle]
+        lock = FileLock(folder / f"{name}.lock", thread_local=False)
+        lock.acquire()
+        return [lock]
     return []
 
 
@@ -195,7 +184,9 @@ class UncompiledLawError(TypeError):
 
 @cache
 def _machine_code(law: Callable[..., float]) -> Any:
+    """The compiled law; of processes and threads that need one at the same time, one compiles it."""
     same = copied(law)
+    locks = _lock(Path(tempfile.gettempdir()) / "support_exudyn", "laws")
     try:
         try:
             return numba.cfunc(LAW, cache=True, error_model="numpy")(same)
@@ -203,6 +194,9 @@ def _machine_code(law: Callable[..., float]) -> Any:
             return numba.cfunc(LAW, error_model="numpy")(same)
     except Exception as error:  # numba evaluates parts of a function itself, which raise errors of any kind
         raise UncompiledLawError(f"numba cannot compile it: {reason(error)}") from error
+    finally:
+        for lock in locks:
+            lock.release()
 
 
 @cache

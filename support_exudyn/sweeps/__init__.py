@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from support_exudyn.sweeps.plan import latin_hypercube as latin_hypercube
     from support_exudyn.sweeps.plan import side_by_side as side_by_side
     from support_exudyn.sweeps.run import SweepOutcome as SweepOutcome
+    from support_exudyn.sweeps.run import open_run as open_run
     from support_exudyn.sweeps.run import sweep as sweep
     from support_exudyn.sweeps.table import read_table as read_table
 

@@ -5,6 +5,7 @@ import re
 from collections.abc import Callable, Iterable, Mapping
 from difflib import get_close_matches
 from fnmatch import fnmatchcase
+from functools import lru_cache
 
 from support_exudyn.mechanics.channels import chosen
 from support_exudyn.mechanics.time_statistics import TimeWindow
@@ -62,18 +63,21 @@ def numbers(result: Result, record: Record) -> dict[str, StoredNumber]:
     }
 
 
-def channels_of(names: Iterable[str], scenario: Scenario) -> tuple[str, ...]:
+def channels_of(numbers: tuple[str, ...], scenario: Scenario) -> tuple[str, ...]:
     """Those channels of a scenario that numbers may be taken of, named or as patterns; at least the time."""
+    return _channels_of(numbers, tuple(chosen(scenario.channel_definitions, scenario.channels)))
+
+
+@lru_cache(maxsize=8)
+def _channels_of(numbers: tuple[str, ...], known: tuple[str, ...]) -> tuple[str, ...]:
     words = (*WORDS, *(f"impulse_{n}" for n in range(1, 10)))
-
-    def is_asked(name: str) -> bool:
-        return any(
-            pattern.rpartition(".")[0] == name or any(fnmatchcase(f"{name}.{word}", pattern) for word in words)
-            for pattern in names
-        )
-
-    found = filter(is_asked, chosen(scenario.channel_definitions, scenario.channels))
-    return (*found, "time")
+    found = [
+        name
+        for name in known
+        for number in numbers
+        if number.rpartition(".")[0] == name or any(fnmatchcase(f"{name}.{word}", number) for word in words)
+    ]
+    return (*dict.fromkeys(found), "time")
 
 
 def check_numbers(scenario: Scenario, names: Iterable[str]) -> None:

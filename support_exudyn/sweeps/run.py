@@ -9,7 +9,11 @@ from dataclasses import dataclass
 from itertools import chain
 from pathlib import Path
 
+from support_exudyn.files.toml.faults import nearest
 from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.simulation.result import Result
+from support_exudyn.simulation.simulate import simulate
+from support_exudyn.sweeps.key import key
 from support_exudyn.sweeps.measures import check_numbers
 from support_exudyn.sweeps.plan import Inputs, Plan
 from support_exudyn.sweeps.store import Store, StoredRun
@@ -23,7 +27,7 @@ from support_exudyn.sweeps.work import (
     refused,
     suits_threads,
 )
-from user_forces.values.value import InputError
+from user_forces.values.value import InputError, short
 
 SELDOM = 10.0  # the table is written every so many seconds while runs come in,
 LOOKED_AT = 100  # runs in which a number is looked for that the first has not
@@ -117,6 +121,25 @@ def known(plan: Plan, out: str | Path, retry_failed: bool = False) -> SweepOutco
     for _ in keeper.tasks():
         pass
     return outcome
+
+
+def open_run(plan: Plan, name: str, out: str | Path | None = None) -> Result:
+    """A run of a sweep: read from its file if that is kept, else computed again.
+
+    Arguments:
+        plan: of the sweep.
+        name: of the run in the table, such as "run_07".
+        out: folder of the store; by default NAME_sweep beside the sweep's file.
+
+    Raises InputError if there is no such run, or if it cannot be run; SimulationError if it fails.
+    """
+    names = plan.run_names
+    if name not in names:
+        raise InputError(f"run = {short(name)}: there is none of this name; {nearest(name, names)}")
+    scenario = plan.scenario(plan.points[names.index(name)])
+    folder = plan.store if out is None else Path(out)
+    file = Store(folder or Path()).run_file(key(scenario, plan.errors))
+    return Result.load(file) if file.exists() else simulate(scenario, errors=plan.errors)
 
 
 class _Keeper:

@@ -12,7 +12,7 @@ import pytest
 from support_exudyn import Result, Scenario
 from support_exudyn.__main__ import main
 from support_exudyn.scene.contract import Failure, Progress, SimulationError
-from support_exudyn.sweeps import SweepOutcome, read_sweep, read_table, sweep, work
+from support_exudyn.sweeps import SweepOutcome, open_run, read_sweep, read_table, sweep, work
 from support_exudyn.sweeps.run import known
 from support_exudyn.sweeps.store import Store
 from support_exudyn.sweeps.work import Task
@@ -86,6 +86,17 @@ def test_without_a_list_the_usual_numbers_are_noted_with_their_errors(tmp_path: 
         assert table[title][0] == value, unit
         if np.isfinite(error):
             assert table[f"{title}_error"][0] == error
+
+
+def test_a_run_that_is_not_kept_is_computed_again_when_it_is_opened(tmp_path: Path, ran: list[Task]) -> None:
+    path = write_sweep(tmp_path, speeds(3), record='numbers = ["pin.pin.force.mean"]\nkeep_runs = false')
+    table = read_table(do(path).table).to_pydict()
+    assert not list(store_of(path).runs.iterdir())
+    run = open_run(read_sweep(path), table["run"][1], store_of(path).folder)
+    assert run.window("pin.pin.force").mean == table["pin.pin.force.mean_N"][1]
+    assert "journal.x" in run.channels
+    with pytest.raises(InputError, match="run = 'run_9': there is none of this name"):
+        open_run(read_sweep(path), "run_9")
 
 
 def test_a_number_that_no_run_can_have_is_refused_before_any_is_made(tmp_path: Path, ran: list[Task]) -> None:

@@ -13,7 +13,7 @@ import pytest
 
 from support_exudyn import Result, Scenario
 from support_exudyn.files.whole_file import PREFIX
-from support_exudyn.sweeps import read_sweep, sweep, work
+from support_exudyn.sweeps import SweepOutcome, read_sweep, sweep, work
 from support_exudyn.sweeps.store import Store
 from support_exudyn.sweeps.workers import ProcessEndedError
 from tests.cases.sweep_cases import columns, rows, run_by, speeds, start, write_sweep
@@ -125,3 +125,26 @@ def test_interrupted_killed_and_hurt_it_ends_as_if_left_alone(
     run_by(monkeypatch, lambda tasks, *_: (work.run_into(whole, task) for task in tasks))
     sweep(read_sweep(path), whole.folder)
     assert columns(store) == columns(tmp_path / "whole")
+
+
+def test_threads_are_interrupted_and_the_rest_is_done_by_the_next_call(tmp_path: Path) -> None:
+    path = write_sweep(tmp_path, speeds(40), duration=0.2)
+    text = path.read_text(encoding="utf-8").replace("[scenario]", '[scenario]\nformulation = "compiled"')
+    path.write_text(text, encoding="utf-8")
+    plan, seen = read_sweep(path), list[int]()
+
+    def interrupt(so_far: SweepOutcome) -> None:
+        seen.append(so_far.done)
+        if so_far.done == 3:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        sweep(plan, tmp_path / "store", workers=2, progress=interrupt)
+    kept = rows(tmp_path / "store")
+    assert 3 <= len(kept) < 40
+    assert columns(tmp_path / "store")["status"].count("done") == len(kept)
+    outcome = sweep(plan, tmp_path / "store", workers=2)
+    assert (outcome.done, outcome.found) == (40, len(kept))
+    assert kept.items() <= rows(tmp_path / "store").items()
+    one = sweep(plan, tmp_path / "alone", workers=1)
+    assert (one.done, columns(tmp_path / "alone")) == (40, columns(tmp_path / "store"))
