@@ -10,14 +10,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from support_exudyn import Drive, Part, Width
 from support_exudyn.files import parsed, read_value, table_of, toml_text
 from tests import strategies as some
-from user_forces import InputError, JournalBearing, JournalContact, LuGre, NormalLaw, Value
+from user_forces import InputError, JournalBearing, NormalLaw, Value
 from user_forces.values.units import Metres, Seconds
 from user_forces.values.value import Positive, Real, value
-
-LAW = '[normal]\ntype = "LankaraniNikravesh"\nstiffness_N_per_m_to_n = 1e10\nrestitution = 0.9\n'
 
 
 def read(cls: type[Value], text: str) -> Any:
@@ -101,50 +98,3 @@ def test_numbers_are_rounded_once() -> None:
     for written in ("0.1", "0.3", "65.5", "1.1", "0.7", "37.7"):
         bearing = read(JournalBearing, f"bore_radius_mm = 1e9\nclearance_mm = {written}")
         assert bearing.clearance == float(f"{written}e-3")
-
-
-# --- what is said ---
-
-
-@pytest.mark.parametrize(
-    ("cls", "text", "said"),
-    [
-        (JournalBearing, "bore_radius_mm = 60\nclearance_mm = -1", "a.toml: clearance_mm = -1: allowed: > 0"),
-        (JournalBearing, "bore_radius_mm = 60\nclearance = 1", "a.toml: clearance: is written with its unit"),
-        (JournalBearing, "bore_radius_mm = 60", "a.toml: clearance_mm: missing; it has no default"),
-        (
-            JournalBearing,
-            "bore_radius_mm = 60\nclearance_mm = 1\nclearance_m = 1e-3",
-            "a.toml: clearance_m: is given twice, clearance_mm says the same; allowed: one of them",
-        ),
-        (JournalBearing, "bore_radius_mm = 60\nclearence_mm = 1", "a.toml: clearence_mm: unknown key"),
-        (JournalBearing, "bore_radius_mm = 60\nclearance_mm = true", "a.toml: clearance_mm = true"),
-        (JournalBearing, "bore_radius_mm = 60\nclearance_mm = 60", "a.toml: clearance = 0.06 m"),
-        (
-            JournalContact,
-            LAW + "[bearing]\nbore_radius_mm = 60\nclearance_mm = 60",
-            "a.toml: bearing: clearance = 0.06 m: leaves no journal",
-        ),
-        (
-            JournalContact,
-            LAW.replace("0.9", "1.5") + "[bearing]\nbore_radius_mm = 60\nclearance_mm = 1",
-            "a.toml: normal.restitution = 1.5: allowed: >= 0 and <= 1",
-        ),
-        (Drive, "stroke_mm = 1", "a.toml: type: missing; allowed: CubicStep, "),
-        (Drive, 'type = "CubicStp"', "a.toml: type = 'CubicStp': did you mean CubicStep? allowed: "),
-        (Part, "mass_kg = 1\ncentre_mm = [1, inf]", "a.toml: centre_mm[1] = Infinity: allowed: a number"),
-        (Part, "mass_kg = 1\ncentre_mm = 3", "a.toml: centre_mm = 3: allowed: a list of 2, each a number"),
-        (Part, "mass_kg = 1\ncentre_mm = [1, 1]\nname = 1", "a.toml: name = 1: allowed: a text"),
-        (Width, "lengths_mm = {pin = 0}", "a.toml: lengths_mm.pin = 0: allowed: > 0"),
-        (Sheave, "radius_m = 1\nforce = 3", "a.toml: force: a number needs its unit in the key"),
-        (Sheave, "radius_m = 1\nwhole = 1", "a.toml: whole = 1: allowed: true, false"),
-        (Sheave, "radius_m = 1\ngrooves = [1, 1.5]", "a.toml: grooves[1] = 1.5: allowed: a whole number"),
-        (Sheave, "radius_m = 1e-31", "a.toml: radius_m = 1E-31: Input should be a number not so near to zero"),
-        (LuGre, "static_coefficient = 0.1\nsliding_coefficient = 0.2", "a.toml: static_coefficient = 0.1"),
-    ],
-)
-def test_what_is_wrong_is_said_with_file_key_value_and_range(cls: type[Value], text: str, said: str) -> None:
-    before, allowed, first = said.partition("allowed: ")
-    told = refusal(cls, text)
-    assert told.startswith(before + allowed)
-    assert first.rstrip(", ") in told  # there may be classes of other tests before it

@@ -8,16 +8,17 @@ from pathlib import Path
 import pytest
 from jsonschema import Draft7Validator, Draft202012Validator
 
-from support_exudyn import trusted
-from support_exudyn.files import parsed, scenario_of, scenario_schema
+from support_exudyn import Drive, Part, Width, trusted
+from support_exudyn.files import parsed, read_value, scenario_of, scenario_schema
 from support_exudyn.files.machines import load_machine, machine_schema
 from tests import strategies as some
+from tests.files.test_data_files import Sheave
 from tests.files.test_linkage_files import CRANK_ROCKER, DRIVEN_BY_FORCES, FREE, GEARED, ON_A_GUIDE
 from tests.files.test_own_classes import LAWS
 from tests.files.test_schemas import plain
 from tests.files.test_support_files import COLUMN, FILE
 from tests.machine_files import OURS
-from user_forces import InputError
+from user_forces import InputError, JournalBearing, JournalContact, LuGre
 
 some.kinds()  # imports all modules: not while something is drawn
 TOP = 'machine = "reference"\nduration_s = 5\n'
@@ -39,11 +40,12 @@ MACHINES = {
     "GEARED": GEARED,
     "LOADED": FREE + DRIVEN_BY_FORCES,
 }
+CLASSES = {cls.__name__: cls for cls in (JournalBearing, JournalContact, Drive, Part, Width, Sheave, LuGre)}
 SCHEMAS = {
     kind: [draft(schema) for draft in (Draft202012Validator, Draft7Validator)]
     for kind, schema in (("scenario", scenario_schema()), ("machine", machine_schema()))
 }
-# After a file of the names above: what is added to a scenario, or changed in a machine (old => new), and the
+# After a name above: the text of a class, or added to a scenario, or changed in a machine (old => new); and the
 # message; "; " ends a line, ".." stands for what is between. The schema for editors shows -> too, but not ~>.
 TABLE = r"""
 == NOTHING
@@ -187,6 +189,35 @@ at = ["O", "M"] => at = ["Z", "M"] ~> springs.between.at[0] = 'Z'
 "rocker"]; stiff => "rock"]; stiff ~> unknown body 'rock'; did you mean 'rocker'?
 body = "rocker"; torque => body = "rock"; torque ~> torques.pull.body.rock: unknown body
 [torques.pull] => [torques.push] ~> forces.push: torques.push has this name
+== JournalBearing
+bore_radius_mm = 60; clearance_mm = -1 ~> clearance_mm = -1: allowed: > 0
+bore_radius_mm = 60; clearance = 1 ~> clearance: is written with its unit
+bore_radius_mm = 60 ~> clearance_mm: missing; it has no default
+bore_radius_mm = 60; clearance_mm = 1; clearance_m = 1e-3
+    ~> clearance_m: is given twice, clearance_mm says the same; allowed: one of them
+bore_radius_mm = 60; clearence_mm = 1 ~> clearence_mm: unknown key
+bore_radius_mm = 60; clearance_mm = true ~> clearance_mm = true
+bore_radius_mm = 60; clearance_mm = 60 ~> clearance = 0.06 m
+== JournalContact
+normal = {type = "Hertz", stiffness_N_per_m_to_n = 1e10}; bearing = {bore_radius_mm = 60, clearance_mm = 60}
+    ~> bearing: clearance = 0.06 m: leaves no journal
+normal = {type = "LankaraniNikravesh", restitution = 1.5} ~> normal.restitution = 1.5: allowed: >= 0 and <= 1
+== Drive
+stroke_mm = 1 ~> type: missing; allowed: .. CubicStep
+type = "CubicStp" ~> type = 'CubicStp': did you mean CubicStep? allowed:
+== Part
+mass_kg = 1; centre_mm = [1, inf] ~> centre_mm[1] = Infinity: allowed: a number
+mass_kg = 1; centre_mm = 3 ~> centre_mm = 3: allowed: a list of 2, each a number
+mass_kg = 1; centre_mm = [1, 1]; name = 1 ~> name = 1: allowed: a text
+== Width
+lengths_mm = {pin = 0} ~> lengths_mm.pin = 0: allowed: > 0
+== Sheave
+radius_m = 1; force = 3 ~> force: a number needs its unit in the key
+radius_m = 1; whole = 1 ~> whole = 1: allowed: true, false
+radius_m = 1; grooves = [1, 1.5] ~> grooves[1] = 1.5: allowed: a whole number
+radius_m = 1e-31 ~> radius_m = 1E-31: Input should be a number not so near to zero
+== LuGre
+static_coefficient = 0.1; sliding_coefficient = 0.2 ~> static_coefficient = 0.1
 """
 
 
@@ -214,6 +245,9 @@ def test_a_mistake_is_answered(tmp_path: Path, name: str, given: str, arrow: str
             text = text.replace("laws.py", module)
         with pytest.raises(InputError) as caught:
             scenario_of(parsed(text, str(path)), str(path), tmp_path)
+    elif name in CLASSES:
+        with pytest.raises(InputError) as caught:
+            read_value(CLASSES[name], parsed(given, str(path)), str(path))
     else:
         old, new = (part.strip() for part in f"{given} ".split(" => "))
         assert old in MACHINES[name]
@@ -224,7 +258,7 @@ def test_a_mistake_is_answered(tmp_path: Path, name: str, given: str, arrow: str
     assert str(caught.value).startswith(f"{path}: ")
     for fragment in message.split(" .. "):
         assert fragment in str(caught.value)
-    if "is no TOML" not in message and not message.startswith("line "):
+    if name not in CLASSES and not message.startswith("line "):
         table = plain(parsed(text, "a"))
         validators = SCHEMAS["scenario" if name in SCENARIOS else "machine"]
         assert [validator.is_valid(table) for validator in validators] == [arrow == "~>"] * 2
