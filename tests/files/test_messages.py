@@ -32,6 +32,11 @@ SCENARIOS = {
     "ROCKER": 'machine = "crank_rocker"\nduration_s = 1\n',
     "OIL": TOP + '[actuators.rear_column]\ntype = "OilColumn"\nbore_area_mm2 = 1e5\nbulk_modulus_MPa = 1960\n',
 }
+DRIVES = {  # by the number alone 10 degrees would be 175 mm
+    "a.csv": "time_s,turn_deg,other_mm\n0,0,0\n1,10,10\n",
+    "b.csv": "time_s,crank_mm\n0,0\n1,10\n",
+    "c.csv": "time_s,front_column_mm\n0,0\n1,100\n",
+}
 MACHINES = {
     "SUPPORT": FILE + COLUMN,
     "OURS": OURS,
@@ -94,6 +99,9 @@ drive = {type = 'CubicStep', stroke = 3} -> drive.stroke: is written with its un
 drive.mode = 2; drive.stroke_mm = 5000 ~> drives.front_column and drives.rear_column: .. cannot follow
 drive.table = 3 -> drive.table = 3: allowed: a text
 drives.table = 3 -> drives.table = 3: allowed: a table of type
+drive = {table = "a.csv", column = "turn"} ~> a.csv: column turn: is in deg; linear actuators extend; allowed: titles
+drives.rear_column = {table = "a.csv", column = "turn"} ~> a.csv: column turn: is in deg; linear actuators
+[drives]; table = "c.csv"; front_column = {mode = 1} ~> drives.front_column: is a column of c.csv too; allowed
 drive.table = 'no.csv' ~> drive.table = 'no.csv': allowed: a file that can be read
 drive = {type = "Steady", rate_rpm = 60} ~> rate_rpm = 60: allowed: rate_mm_per_s, rate_m_per_s
 drive = {type = "CubicStep", start_s = 0, end_s = 1, stroke_deg = 60}
@@ -127,6 +135,8 @@ clearance_mm = 1; block_mm = [40, 20]; law = "Johnson" -> "ClearanceGuide" and i
 clearance_mm = 1; block_mm = [40, 20]; law = "Hertz"; restitution = 0.5 ~> guides.guide: restitution
 clearance_mm = 1; pin_radius_mm = 5 ~> has a pin_radius; allowed: block
 == CRANK
+drive = {table = "a.csv", column = "other"} ~> a.csv: column other: is in mm; cranks turn
+[drives]; table = "b.csv" ~> b.csv: column crank: is in mm; cranks turn
 [drive]; mode = 2; stroke_mm = 1 ~> drive.mode = 2: allowed: none of cranks
 == ROCKER
 drive = {type = "CubicStep", start_s = 0, end_s = 1, stroke_mm = 500}
@@ -236,6 +246,8 @@ def rows() -> Iterator[tuple[str, str, str, str]]:
 @pytest.mark.parametrize(("name", "given", "arrow", "message"), list(rows()))
 def test_a_mistake_is_answered(tmp_path: Path, name: str, given: str, arrow: str, message: str) -> None:
     path = tmp_path / "file.toml"
+    for drive, columns in DRIVES.items():
+        (tmp_path / drive).write_text(columns, encoding="utf-8")
     if name in SCENARIOS:
         text = SCENARIOS[name] + given
         if "laws.py:Bad" in text:
@@ -255,7 +267,8 @@ def test_a_mistake_is_answered(tmp_path: Path, name: str, given: str, arrow: str
         path.write_text(text, encoding="utf-8")
         with pytest.raises(InputError) as caught:
             load_machine(path)
-    assert str(caught.value).startswith(f"{path}: ")
+    named = tmp_path / message.partition(":")[0] if message.startswith(tuple(DRIVES)) else path
+    assert str(caught.value).startswith(f"{named}: ")
     for fragment in message.split(" .. "):
         assert fragment in str(caught.value)
     if name not in CLASSES and not message.startswith("line "):

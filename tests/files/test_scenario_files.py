@@ -188,37 +188,6 @@ def test_a_bore_that_nobody_gives_is_asked_for(tmp_path: Path) -> None:
     assert said.startswith("a.toml: pins.front_base: bore_radius_mm: missing, and the machine's file says none")
 
 
-def test_a_column_of_the_file_and_a_drive_of_the_table_are_one_too_many(tmp_path: Path) -> None:
-    (tmp_path / "a.csv").write_text("time_s,front_column_mm\n0,0\n1,100\n")
-    said = refusal(TOP + "[drives]\ntable = 'a.csv'\nfront_column = {mode = 1}", tmp_path)
-    assert said == "a.toml: drives.front_column: is a column of a.csv too; allowed: one of them"
-
-
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
-        (TOP + "drive.table = 'a.csv'", "linear actuators extend; allowed: titles that end by _mm, _m"),
-        (TOP + "drives.rear_column.table = 'a.csv'", "linear actuators extend"),
-        (
-            'machine = "slider_crank"\nduration_s = 1\ndrive = {table = "a.csv", column = "other"}',
-            "cranks turn",
-        ),
-        ('machine = "slider_crank"\nduration_s = 1\n[drives]\ntable = "b.csv"', "cranks turn"),
-    ],
-)
-def test_angles_drive_cranks_and_lengths_actuators(tmp_path: Path, text: str, said: str) -> None:
-    """By the number alone 10 degrees would be 175 mm."""
-    (tmp_path / "a.csv").write_text("time_s,turn_deg,other_mm\n0,0,0\n1,10,10\n")
-    (tmp_path / "b.csv").write_text("time_s,crank_mm\n0,0\n1,10\n")
-    text = text.replace("'a.csv'", "'a.csv'\ndrive.column = 'turn'") if "drive.table" in text else text
-    text = (
-        text.replace("table = 'a.csv'", "table = 'a.csv'\ndrives.rear_column.column = 'turn'", 1)
-        if ("rear_column" in text)
-        else text
-    )
-    assert said in refusal(text, tmp_path)
-
-
 def test_angles_of_a_crank_are_taken(tmp_path: Path) -> None:
     (tmp_path / "a.csv").write_text("time_s,crank_deg,other_mm\n0,0,0\n1,180,10\n")
     text = 'machine = "slider_crank"\nduration_s = 1\ndrive = {table = "a.csv", column = "crank"}'
