@@ -99,7 +99,7 @@ drive = {type = 'CubicStep', stroke = 3} -> drive.stroke: is written with its un
 drive.mode = 2; drive.stroke_mm = 5000 ~> drives.front_column and drives.rear_column: .. cannot follow
 drive.table = 3 -> drive.table = 3: allowed: a text
 drives.table = 3 -> drives.table = 3: allowed: a table of type
-drive = {table = "a.csv", column = "turn"} ~> a.csv: column turn: is in deg; linear actuators extend; allowed: titles
+drive = {table = "a.csv", column = "turn"} ~> a.csv: column turn: is in deg; linear actuators extend; allowed:
 drives.rear_column = {table = "a.csv", column = "turn"} ~> a.csv: column turn: is in deg; linear actuators
 [drives]; table = "c.csv"; front_column = {mode = 1} ~> drives.front_column: is a column of c.csv too; allowed
 drive.table = 'no.csv' ~> drive.table = 'no.csv': allowed: a file that can be read

@@ -375,30 +375,29 @@ def _first(errors: Sequence[Any]) -> list[Any]:
 
 def _sentence(cls: Any, error: Mapping[str, Any]) -> str:
     """One line for one pydantic error: where, the value, what is wrong, what is allowed."""
-    path = ".".join(step(part) for part in error["loc"])
+    path = ".".join(map(step, error["loc"]))
     where = f"{cls.__name__}.{path}" if path else cls.__name__
-    fields = [f.name for f in dataclasses.fields(cls)]
-    if error["type"] in ("unexpected_keyword_argument", "unexpected_positional_argument"):
+    item, kind, context = f"{where} = {short(error['input'])}", error["type"], error.get("ctx", {})
+    if kind.startswith("unexpected_"):
         if instead := removed_fields(cls).get(path):
-            return f"{where} = {short(error['input'])}: there is no such field any more; {instead}"
+            return f"{item}: there is no such field any more; {instead}"
+        fields = [field.name for field in dataclasses.fields(cls)]
         near = get_close_matches(path[:NEAREST], fields, 1)
         guess = f"did you mean {near[0]}? " if near else ""
-        return f"{where} = {short(error['input'])}: unknown field; {guess}the fields are {', '.join(fields)}"
-    if error["type"] in ("missing", "missing_keyword_only_argument"):
+        return f"{item}: unknown field; {guess}the fields are {', '.join(fields)}"
+    if kind.startswith("missing"):
         return f"{where}: missing; it has no default"
-    if error["type"] == "value_error" and not path:  # a check of ours over several fields
-        return f"{where}: {error['ctx']['error']}"
-    if error["type"] in LENGTHS:
-        least, most = (error["ctx"].get(f"{end}_length") for end in ("min", "max"))
-        bound = f"at least {least}" if least is not None else f"at most {most}"
-        return f"{where} = {short(error['input'])}: allowed: {bound} items"
+    if kind == "value_error" and not path:  # a check of ours over several fields
+        return f"{where}: {context['error']}"
+    if kind in LENGTHS:
+        least, most = (context.get(f"{end}_length") for end in ("min", "max"))
+        return f"{item}: allowed: {f'at least {least}' if least is not None else f'at most {most}'} items"
     allowed = _allowed(cls, error["loc"])
-    if error["type"] in OUT_OF_BOUNDS:
-        bound = allowed or " and ".join(f"{MARKS[end]} {limit:g}" for end, limit in error["ctx"].items())
-        return f"{where} = {short(error['input'])}: allowed: {bound}"
-    # of a check of ours, without pydantic's words before it
-    said = error["ctx"]["error"] if error["type"] == "value_error" else error["msg"]
-    return f"{where} = {short(error['input'])}: {said}" + (f"; allowed: {allowed}" if allowed else "")
+    if kind in OUT_OF_BOUNDS:
+        bound = allowed or " and ".join(f"{MARKS[end]} {limit:g}" for end, limit in context.items())
+        return f"{item}: allowed: {bound}"
+    said = context.get("error", error["msg"])  # of a check of ours, without pydantic's words before it
+    return f"{item}: {said}" + (f"; allowed: {allowed}" if allowed else "")
 
 
 def _allowed(cls: Any, loc: tuple[Any, ...]) -> str:
