@@ -6,25 +6,21 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
+from studies.common.panels import finish, grid
+from studies.extremes.drawn import Point
 from studies.extremes.judge import GOOD, REFUSED, SILENT, Judgement
-from studies.extremes.ranges import Point
-from studies.extremes.scenes import (
-    CLEARANCE_SPEED,
-    FRICTION_STEP,
-    IMPACT_STEPS,
-    STEP_STIFFNESS,
-    Case,
-    fallen,
-)
+from studies.extremes.scenes import CLEARANCE_SPEED, FRICTION_STEP, STEP_STIFFNESS, Case
+from studies.extremes.supports import IMPACT_STEPS, fallen
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.scenario.timescales import timescales
 
 SMALLEST, LARGEST = 1e-6, 1.0  # of the colours
 SQUARE = 85.0  # area of the mark of a run [points^2]
-ROOM = 0.04  # beside the outermost, as a share of an axis
+ROOM = 0.04  # around the outermost, as a share of an axis
 MARKS: Mapping[str, Mapping[str, Any]] = {
     REFUSED: {"marker": "x", "color": "black", "markersize": 6},
     SILENT: {"marker": "D", "color": style.CONTACT, "markersize": 7},
@@ -38,30 +34,22 @@ Curve = tuple[str, Callable[[float], float]]
 # --- limits ---
 
 
-def _first_impact(point: Point) -> float:
-    """The velocity of the first impact of a fall through the clearance [m/s]."""
-    return math.sqrt(2.0 * PULL * point.clearance_m)
-
-
 def _of_contact() -> list[Curve]:
     def duration(stiffness: float) -> float:
         point = Point(stiffness=stiffness)
-        return point.normal.impact_time(_first_impact(point), MASS)
+        speed = math.sqrt(2.0 * PULL * point.clearance_m)  # of the first impact after the fall
+        return point.normal.impact_time(speed, MASS)
 
+    taken = f"step that is taken in it: 1/{IMPACT_STEPS} of it"
     return [
         ("duration of the first contact", duration),
-        (
-            f"step that is taken in it: 1/{IMPACT_STEPS} of it",
-            lambda stiffness: duration(stiffness) / IMPACT_STEPS,
-        ),
+        (taken, lambda stiffness: duration(stiffness) / IMPACT_STEPS),
     ]
 
 
 def _of_flight() -> list[Curve]:
-    def flight(clearance: float) -> float:
-        return 0.05 / math.sqrt(2.0 * clearance / PULL)
-
-    return [("stroke as long as the fall through the clearance", flight)]
+    name = "stroke as long as the fall through the clearance"
+    return [(name, lambda clearance: 0.05 / math.sqrt(2.0 * clearance / PULL))]
 
 
 def _of_friction() -> list[Curve]:
@@ -111,7 +99,8 @@ MAPS = {
 def figures(judged: Judged) -> dict[str, Figure]:
     """All maps of which there are cases, by file name."""
     groups = {case.group for case, _ in judged}
-    return {f"map_{name}": _figure(one, judged) for name, one in MAPS.items() if one.group in groups}
+    maps = {f"map_{name}": _figure(one, judged) for name, one in MAPS.items() if one.group in groups}
+    return {"map_solvers": solver_figure(judged)} | maps
 
 
 def _figure(one: Map, judged: Judged) -> Figure:
@@ -136,9 +125,9 @@ def _figure(one: Map, judged: Judged) -> Figure:
         if here:
             axes.plot([xs[n] for n in here], [ys[n] for n in here], linestyle="none", label=outcome, **mark)
     along = np.geomspace(min(xs), max(xs), 200)
-    for n, (name, curve) in enumerate(one.limits()):
+    for dashes, (name, curve) in zip(("-", "--"), one.limits(), strict=False):
         values = [curve(float(x)) for x in along]
-        axes.plot(along, values, color="black", linestyle=("-", "--")[n], label=name, zorder=3)
+        axes.plot(along, values, color="black", linestyle=dashes, label=name, zorder=3)
     axes.plot(*one.default, "*", color="white", markeredgecolor="black", markersize=11,
               linestyle="none", label=one.default_name, zorder=4)  # fmt: skip
     drawing.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=2)
@@ -150,3 +139,41 @@ def _around(values: Sequence[float]) -> tuple[float, float]:
     low, high = min(values), max(values)
     room = (high / low) ** ROOM if high > low else 10.0
     return low / room, high * room
+
+
+# --- where each solver holds ---
+
+SOLVERS = {"compiled": style.SMOOTH, "exudyn": style.WITH_CLEARANCE}
+AXES = {  # of the panels: a value of a map, or of a verdict
+    "step_s": "step [s]",
+    "stiffness": "contact stiffness / paper's [-]",
+    "clearance_m": "clearance [m]",
+    "mass_ratio": "heaviest over lightest body [-]",
+}
+PANELS = (
+    ("stiffness", "step_s"), ("clearance_m", "step_s"), ("mass_ratio", "step_s"), ("clearance_m", "mass_ratio"),
+)  # fmt: skip
+
+
+def solver_figure(judged: Judged) -> Figure:
+    """All scenes by the solver that ran them, over step, stiffness, clearance and mass ratio."""
+    drawing, panels = grid(150, 2, 2)
+    for axes, names in zip(panels.flat, PANELS, strict=True):
+        axes.set(xscale="log", yscale="log", xlabel=AXES[names[0]], ylabel=AXES[names[1]])
+        for solver, colour in SOLVERS.items():
+            _scatter(axes, names, judged, GOOD, solver, ".", color=colour, ms=4, alpha=0.6)
+            _scatter(axes, names, judged, REFUSED, solver, "x", color=colour, ms=6)
+        _scatter(axes, names, judged, SILENT, None, "D", color="black", ms=5)
+    return finish(drawing, panels, 3)
+
+
+def _scatter(
+    axes: Axes, names: tuple[str, str], judged: Judged, outcome: str, solver: str | None, mark: str, **look: Any
+) -> None:
+    values = [
+        {**verdict.values, **case.values}
+        for case, verdict in judged
+        if verdict.outcome == outcome and solver in (None, verdict.solver)
+    ]
+    x, y = ([one.get(name, math.nan) for one in values] for name in names)
+    axes.plot(x, y, mark, ls="none", label=outcome if solver is None else f"{solver}, {outcome}", **look)

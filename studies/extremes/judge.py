@@ -3,7 +3,7 @@
 A run is good if it has finished and what can be asked of it is so:
 
 - all of its numbers are finite, energy adds up, no journal is deeper in its bore than a stated share of the
-  radius (`simulation.result_checks` looks at that in every run; here it is looked at once more);
+  radius (`simulation.result_checks` checks that in every run; here it is checked once more);
 - no oil of a hydraulic leg is lost or made;
 - no free impact gives back more than the law does;
 - a run of half its steps agrees with it within the error that it reports;
@@ -16,7 +16,7 @@ import traceback
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -31,6 +31,7 @@ from support_exudyn.formulations.registry import formulation
 from support_exudyn.scenario.scenario_data import LARGEST_STEP
 from support_exudyn.scenario.timescales import timescales
 from support_exudyn.scene.limits import DEEPEST
+from support_exudyn.simulation.automatic_settings import settings_for
 from support_exudyn.simulation.contact_ringing import ringing_step
 from support_exudyn.simulation.estimate import disagreement, rounding_share
 from support_exudyn.simulation.result_checks import OPEN, energy_open
@@ -65,11 +66,12 @@ class Judgement:
     """How a case ended.
 
     outcome: good, refused or silent. reason: why not good. error: reported, relative, of the worst number.
-    half: how far half the steps are away in the same measure. other: how far the independent formulation is,
-    nan if there is none. energy: by how much it is open as a share of what was turned over. depth: largest
-    share of the bore's radius. oil: by how much that of a leg is open as a share of it, nan if none is
-    counted. restitution: the largest of free impacts over that of the law, nan if there is none. met: whether
-    an accuracy that was asked for was reached.
+    half: distance of the run with half the steps in the same measure. other: distance of the independent
+    formulation, nan if there is none. energy: open share of what was turned over. depth: largest share of the
+    bore's radius. oil: open share of a leg's oil, nan if none is counted. restitution: the largest of free
+    impacts over that of the law, nan if there is none. met: whether an accuracy that was asked for was reached.
+    solver: the formulation of the run. values: step [s] if it is chosen, clearance [m], mass ratio of the
+    heaviest to the lightest body, as the maps name them.
     """
 
     outcome: str
@@ -82,6 +84,8 @@ class Judgement:
     oil: float = math.nan
     restitution: float = math.nan
     met: bool = False
+    solver: str = ""
+    values: Mapping[str, float] = field(default_factory=dict)
 
 
 Run = Callable[[Scenario], Result]
@@ -93,15 +97,15 @@ def run_with_its_error(scenario: Scenario) -> Result:
 
 
 def judge(make: Callable[[], Scenario], run: Run = run_with_its_error) -> Judgement:
-    """Make a scene, run it and look at what comes out; warnings are errors."""
+    """Make a scene, run it and judge the result; warnings are errors."""
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             return _judged(make, run)
     except Exception as error:  # whatever it is: nobody has explained it
         where = traceback.extract_tb(error.__traceback__)[-1]
-        said = f"{type(error).__name__}: {error} ({where.filename.rpartition('/')[2]}:{where.lineno})"
-        return Judgement(SILENT, said[:400])
+        place = f"{where.filename.rpartition('/')[2]}:{where.lineno}"
+        return Judgement(SILENT, f"{type(error).__name__}: {error} ({place})"[:400])
 
 
 def _judged(make: Callable[[], Scenario], run: Run) -> Judgement:
@@ -111,8 +115,8 @@ def _judged(make: Callable[[], Scenario], run: Run) -> Judgement:
     except InputError as error:
         return Judgement(REFUSED, f"{BEFORE}{error}"[:400])
     except SimulationError as error:
-        return _refused(error)
-    found = Judgement(
+        return _refused(error, scenario)
+    verdict = Judgement(
         GOOD,
         error=result.worst_error,
         energy=_energy(result),
@@ -120,47 +124,62 @@ def _judged(make: Callable[[], Scenario], run: Run) -> Judgement:
         oil=oil_open(result),
         restitution=largest_restitution(result),
         met=result.met,
+        **_circumstances(result.scenario),
     )
-    return _compared(result, found)
+    return _compared(result, verdict)
 
 
-def _refused(error: SimulationError) -> Judgement:
+def _refused(error: SimulationError, scenario: Scenario) -> Judgement:
     """A failure has to say why, when, and what to change."""
     failure = error.failure
     if failure.reason and failure.advice and math.isfinite(failure.time):
-        return Judgement(REFUSED, f"at {failure.time:.6g} s: {failure.reason}"[:400])
+        reason = f"at {failure.time:.6g} s: {failure.reason}"[:400]
+        return Judgement(REFUSED, reason, **_circumstances(scenario))
     return Judgement(SILENT, f"refused without cause, time or advice: {failure}")
 
 
-def _compared(result: Result, found: Judgement) -> Judgement:
-    """The verdict after what is asked of a run by itself and beside others."""
-    faults = []
-    if not all(np.isfinite(channel.values).all() for channel in result.channels.values()):
-        faults.append("a number is not finite")
-    if not found.energy <= OPEN:
-        faults.append(f"energy is open by {found.energy:.2g} of what was turned over")
-    if found.depth > DEEPEST:
-        faults.append(f"depth is {found.depth:.2g} of the bore's radius")
-    if found.oil > LEAK:
-        faults.append(f"{found.oil:.2g} of a leg's oil is lost or made")
-    if found.restitution > 1.0 + MORE:
-        faults.append(f"a free impact gives back {found.restitution:.4g} times what its law does")
-    pair = _halved(result)
-    if pair is not None:
+def _circumstances(scenario: Scenario) -> dict[str, Any]:
+    """The solver of a run and the values of a scene that maps show, as fields of its judgement."""
+    masses = [body.mass for body in scenario.linkage.bodies.values()]
+    values = {"mass_ratio": max(masses) / min(masses)}
+    if scenario.goal is None:
+        values["step_s"] = scenario.step
+    for pin in scenario.clearance_pins.values():
+        values["clearance_m"] = pin.contact.bearing.clearance
+    chosen = (
+        scenario.formulation if scenario.goal is None else settings_for(scenario, scenario.goal).formulation
+    )
+    return {"solver": "compiled" if chosen == "compiled" else "exudyn", "values": values}
+
+
+def _compared(result: Result, verdict: Judgement) -> Judgement:
+    """The verdict after every check of the run by itself, against half its steps and another formulation."""
+    finite = all(np.isfinite(channel.values).all() for channel in result.channels.values())
+    checks = [
+        (finite, "a number is not finite"),
+        (verdict.energy <= OPEN, f"energy is open by {verdict.energy:.2g} of what was turned over"),
+        (not verdict.depth > DEEPEST, f"depth is {verdict.depth:.2g} of the bore's radius"),
+        (not verdict.oil > LEAK, f"{verdict.oil:.2g} of a leg's oil is lost or made"),
+        (
+            not verdict.restitution > 1.0 + MORE,
+            f"a free impact gives back {verdict.restitution:.4g} times what its law does",
+        ),
+    ]
+    if (pair := _halved(result)) is not None:
         whole, half = pair
-        found = replace(found, half=disagreement(whole, half))
+        verdict = replace(verdict, half=disagreement(whole, half))
         reported = whole.worst_error + rounding_share(half)
-        if not found.half <= reported:
-            faults.append(f"half the steps are {found.half:.2g} away, reported error {reported:.2g}")
-    other = independent(result.scenario)
-    if other is not None:
-        found = replace(found, other=disagreement(result, other))
-        if not found.other <= found.error + CHECKING * other.worst_error:
-            faults.append(
-                f"formulation {other.scenario.formulation} is {found.other:.2g} away, reported errors "
-                f"{found.error:.2g} and {other.worst_error:.2g}"
-            )
-    return replace(found, outcome=SILENT, reason="; ".join(faults)) if faults else found
+        text = f"half the steps are {verdict.half:.2g} away, reported error {reported:.2g}"
+        checks.append((verdict.half <= reported, text))
+    if (other := independent(result.scenario)) is not None:
+        verdict = replace(verdict, other=disagreement(result, other))
+        text = (
+            f"formulation {other.scenario.formulation} is {verdict.other:.2g} away, reported errors "
+            f"{verdict.error:.2g} and {other.worst_error:.2g}"
+        )
+        checks.append((verdict.other <= verdict.error + CHECKING * other.worst_error, text))
+    faults = [text for passed, text in checks if not passed]
+    return replace(verdict, outcome=SILENT, reason="; ".join(faults)) if faults else verdict
 
 
 def _energy(result: Result) -> float:
@@ -178,30 +197,31 @@ def _deepest(result: Result) -> float:
 
 
 def largest_restitution(result: Result) -> float:
-    """The largest restitution of a free impact over that of its law; nan if there was none."""
-    found = [math.nan]
-    pull = _pull(result.scenario)
-    contacts = {
-        name: [(impact.time, impact.separation_time) for impact in result.onsets.get(name, ())]
-        for name in result.scenario.clearance_pins
-    }
-    for name, pin in result.scenario.clearance_pins.items():
+    """The largest restitution of a free impact over that of its law; nan if there was none.
+
+    An impact is free if nothing rubs, no other contact or impulse falls into it, and little pulls the journal.
+    """
+    ratios = [math.nan]
+    pull, pins = _pull(result.scenario), result.scenario.clearance_pins
+    impulses = [(impulse.time, impulse.time) for impulse in result.impulses]
+    for name, pin in pins.items():
         law = pin.contact.normal
         if not isinstance(law, Hysteresis) or not isinstance(pin.contact.friction, Frictionless):
             continue
-        others = [span for other, spans in contacts.items() if other != name for span in spans]
+        others = [
+            (impact.time, impact.separation_time)
+            for other in pins
+            if other != name
+            for impact in result.onsets.get(other, ())
+        ]
         for impact in result.onsets.get(name, ()):
-            lasted = impact.separation_time - impact.time
-            if not pull * lasted < FREE * impact.speed:
-                continue
-            if any(
-                begin - ALONE < impact.separation_time and impact.time < end + ALONE for begin, end in others
+            free = pull * (impact.separation_time - impact.time) < FREE * impact.speed
+            if free and not any(
+                begin - ALONE < impact.separation_time and impact.time < end + ALONE
+                for begin, end in [*others, *impulses]
             ):
-                continue
-            if any(impact.time - ALONE <= one.time <= impact.separation_time for one in result.impulses):
-                continue
-            found.append(impact.separation_velocity / (_delivered(law, impact.speed) * impact.speed))
-    return float(np.nanmax(found)) if len(found) > 1 else math.nan
+                ratios.append(impact.separation_velocity / (_delivered(law, impact.speed) * impact.speed))
+    return float(np.nanmax(ratios)) if len(ratios) > 1 else math.nan
 
 
 def _delivered(law: Hysteresis, speed: float) -> float:

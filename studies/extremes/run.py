@@ -2,7 +2,7 @@
 
 Clearance, stiffness, restitution, friction, steps, spectral radius, masses, postures, starts, loads and speeds
 far beyond what is sensible, in grids and random corners; and runs of up to a thousand seconds. How a run is
-judged is told in `studies.extremes.judge`.
+judged stands in `studies.extremes.judge`.
 """
 
 import math
@@ -19,8 +19,8 @@ from studies.common.options import Options
 from studies.common.study import Study, StudyOutcome
 from studies.common.words import text_table
 from studies.extremes import long_runs
-from studies.extremes.cases import BOX, DRAWN, HYDRAULICS, RANDOM, cases
-from studies.extremes.figures import figures
+from studies.extremes.drawn import SPANS
+from studies.extremes.figures import Judged, figures
 from studies.extremes.judge import (
     BEFORE,
     FREE,
@@ -35,8 +35,7 @@ from studies.extremes.judge import (
     run_long,
 )
 from studies.extremes.long_runs import LongRun
-from studies.extremes.ranges import SPANS
-from studies.extremes.scenes import MAPS, Case
+from studies.extremes.scenes import BOX, DRAWN, HYDRAULICS, MAPS, RANDOM, cases
 from support_exudyn.postprocessing.page.pieces import Sheet
 from support_exudyn.scene.limits import DEEPEST
 from support_exudyn.simulation.result_checks import OPEN
@@ -44,10 +43,8 @@ from support_exudyn.simulation.result_checks import OPEN
 OUTCOMES = (GOOD, REFUSED, SILENT)
 SENSIBLE = "physically sensible"
 SURE = 0.95  # of intervals of what is drawn
-Judged = Sequence[tuple[Case, Judgement]]
 Long = Mapping[str, LongRun | str]
-# the rows of the key table
-KINDS = {
+KINDS = {  # the rows of the key table
     SENSIBLE: (BOX,),
     "pin, steps and start beyond": ("corners", "solver", "start"),
     "slider-crank": ("slider-crank", "hang-up", "dead centre"),
@@ -56,15 +53,16 @@ KINDS = {
     ),
     "on hydraulic legs": (HYDRAULICS,),
     "grids of the maps": MAPS,
+    "all": (*MAPS, *RANDOM),
 }  # fmt: skip
 
 
-# --- what came out ---
+# --- shares of drawn scenes ---
 
 
 @dataclass(frozen=True)
 class CountedShare:
-    """Of how many drawn scenes something holds, and between what shares all that could be drawn lie.
+    """In how many drawn scenes something holds, and the interval of the share of all that could be drawn.
 
     held, number: of so many so many. The interval is that of Clopper and Pearson, with a confidence of SURE.
     """
@@ -72,33 +70,28 @@ class CountedShare:
     held: int
     number: int
 
-    @property
-    def value(self) -> float:
-        """The share of those that were drawn."""
-        return self.held / self.number
-
     @cached_property
     def interval(self) -> tuple[float, float]:
         """The least and the largest share of all that could be drawn."""
         from scipy.stats import binomtest  # takes a second to import
 
-        found = binomtest(self.held, self.number).proportion_ci(SURE, "exact")
-        return float(found.low), float(found.high)
+        exact = binomtest(self.held, self.number).proportion_ci(SURE, "exact")
+        return float(exact.low), float(exact.high)
 
-    @property
-    def error(self) -> float:
-        """How far the share of all may be from that of those that were drawn."""
+    def named(self, name: str, case: str) -> Number:
+        """The share as a number; its error is the distance of the farther end of the interval."""
         low, high = self.interval
-        return max(self.value - low, high - self.value)
+        value = self.held / self.number
+        return Number(name, case, value, "1", max(value - low, high - value))
 
     @property
     def said(self) -> str:
         """The share in per cent, with its interval."""
-        low, high = (f"{100.0 * one:.3g}" for one in self.interval)
-        return f"{100.0 * self.value:.3g} % ({low} to {high} %)"
+        value, low, high = (100.0 * share for share in (self.held / self.number, *self.interval))
+        return f"{value:.3g} % ({low:.3g} to {high:.3g} %)"
 
 
-def of(held: Sequence[bool]) -> CountedShare:
+def share_of(held: Sequence[bool]) -> CountedShare:
     """The share of those of which it holds."""
     return CountedShare(sum(held), len(held))
 
@@ -107,10 +100,10 @@ def shares(judged: Judged) -> dict[tuple[str, str], CountedShare]:
     """What holds of the physically sensible scenes and of all that were drawn, by its name and theirs."""
     box, random = of_groups(judged, (BOX,)), of_groups(judged, RANDOM)
     return {
-        (GOOD, SENSIBLE): of([one.outcome == GOOD for one in box]),
-        ("accuracy_met", SENSIBLE): of([one.met for one in box]),
-        (SILENT, SENSIBLE): of([one.outcome == SILENT for one in box]),
-        **{(outcome, "drawn"): of([one.outcome == outcome for one in random]) for outcome in OUTCOMES},
+        (GOOD, SENSIBLE): share_of([one.outcome == GOOD for one in box]),
+        ("accuracy_met", SENSIBLE): share_of([one.met for one in box]),
+        (SILENT, SENSIBLE): share_of([one.outcome == SILENT for one in box]),
+        **{(outcome, "drawn"): share_of([one.outcome == outcome for one in random]) for outcome in OUTCOMES},
     }
 
 
@@ -122,18 +115,21 @@ def middle(values: Sequence[float]) -> tuple[float, float]:
     from scipy.stats import binom  # takes a second to import
 
     ordered = sorted(values)
-    found, last = float(np.median(ordered)), len(ordered) - 1
+    median, last = float(np.median(ordered)), len(ordered) - 1
     below = int(binom.ppf(0.5 * (1.0 - SURE), len(ordered), 0.5)) - 1
     if below < 0:
-        return found, math.inf
-    return found, max(found - ordered[below], ordered[last - below] - found)
+        return median, math.inf
+    return median, max(median - ordered[below], ordered[last - below] - median)
+
+
+# --- numbers ---
 
 
 def numbers(judged: Judged, long: Long) -> list[Number]:
     """Shares with their counting errors, extremes of this very set of runs, and what long runs came to."""
-    random = of_groups(judged, RANDOM)
-    error, of_error = middle([one.error for one in random if one.outcome == GOOD])
-    found = [Number(*name, share.value, "1", share.error) for name, share in shares(judged).items()]
+    found = [share.named(*name) for name, share in shares(judged).items()]
+    random = [one.error for one in of_groups(judged, RANDOM) if one.outcome == GOOD]
+    error, of_error = middle(random)
     if math.isfinite(of_error):
         found.append(Number("median_reported_error", "drawn, good", error, "1", of_error))
     every = [verdict for _, verdict in judged if verdict.outcome == GOOD]
@@ -145,7 +141,7 @@ def numbers(judged: Judged, long: Long) -> list[Number]:
         "largest_restitution_over_law": [one.restitution for one in every],
         "largest_half_over_reported": [one.half / one.error for one in every if one.error],
     }
-    found += [Number(name, of_these, _largest(values), "1", 0.0) for name, values in extremes.items()]
+    found += [Number(name, of_these, largest(values), "1", 0.0) for name, values in extremes.items()]
     for name, run in long.items():
         if isinstance(run, LongRun):
             case = f"{name}, {run.simulated:g} s"
@@ -157,7 +153,7 @@ def numbers(judged: Judged, long: Long) -> list[Number]:
     return found
 
 
-def _largest(values: Sequence[float]) -> float:
+def largest(values: Sequence[float]) -> float:
     """The largest of those that are numbers; 0 if none is."""
     return max((value for value in values if math.isfinite(value)), default=0.0)
 
@@ -177,61 +173,44 @@ def checked_twice(verdicts: Sequence[Judgement]) -> int:
     return sum(math.isfinite(one.other) for one in verdicts)
 
 
-def counts(verdicts: Sequence[Judgement]) -> dict[str, int]:
-    """The counts of the summary."""
-    return {f"runs_{outcome}": number for outcome, number in ended(verdicts).items()}
-
-
 # --- tables ---
 
 
-def kind_table(judged: Judged) -> Sheet:
-    """How the runs ended, by what they are; the key table."""
-    rows = []
-    for kind, groups in {**KINDS, "all": (*MAPS, *RANDOM)}.items():
+def tables(judged: Judged, long: Long) -> dict[str, Sheet]:
+    """How the runs ended, why some were refused and what is wrong with others; and the long runs."""
+    kinds = []
+    for kind, groups in KINDS.items():
         here = of_groups(judged, groups)
-        rows.append((kind, str(len(here)), *map(str, ended(here).values()), str(checked_twice(here))))
-    header = ("scenes", "runs", "good", "refused", "silently wrong", "checked by another formulation")
-    return text_table(header, rows)
-
-
-def reason_table(judged: Judged) -> Sheet:
-    """Why runs were refused, the commonest first."""
-    counted = Counter(_kind(verdict.reason) for _, verdict in judged if verdict.outcome == REFUSED)
-    rows = tuple((str(number), reason) for reason, number in counted.most_common())
-    return text_table(("runs", "reason"), rows, wide=True)
+        kinds.append((kind, *map(str, (len(here), *ended(here).values(), checked_twice(here)))))
+    refused = Counter(_kind(verdict.reason) for _, verdict in judged if verdict.outcome == REFUSED)
+    silent = [(case.name, verdict.reason) for case, verdict in judged if verdict.outcome == SILENT]
+    of_kinds = ("scenes", "runs", "good", "refused", "silently wrong", "checked by another formulation")
+    of_long = (
+        "scene", "time [s]", "took [s]", "steps", "impacts", "gap, first tenth [m]", "gap, last tenth [m]",
+        "energy open / turned over",
+    )  # fmt: skip
+    reasons = [(str(number), reason) for reason, number in refused.most_common()]
+    return {
+        "table_kinds": text_table(of_kinds, kinds),
+        "table_reasons": text_table(("runs", "reason"), reasons, wide=True),
+        "table_silent": text_table(("run", "what is wrong"), silent or [("none", "")], wide=True),
+        "table_long": text_table(of_long, [_long_row(name, run) for name, run in long.items()]),
+    }
 
 
 def _kind(reason: str) -> str:
     """A reason without its numbers."""
-    said = reason.partition(": ")[2] or reason
-    words = ["#" if any(letter.isdigit() for letter in word) else word for word in said.split()]
+    text = reason.partition(": ")[2] or reason
+    words = ["#" if any(letter.isdigit() for letter in word) else word for word in text.split()]
     short = " ".join(words).split("; allowed")[0]
     return short[:110] + ("..." if len(short) > 110 else "")
 
 
-def silent_table(judged: Judged) -> Sheet:
-    """Silent failures, one by one."""
-    rows = tuple((case.name, verdict.reason) for case, verdict in judged if verdict.outcome == SILENT)
-    return text_table(("run", "what is wrong"), rows or (("none", ""),), wide=True)
-
-
-def long_table(long: Long) -> Sheet:
-    """Long runs."""
-    rows = []
-    for name, run in long.items():
-        if isinstance(run, str):
-            rows.append((name, run, *("",) * 6))
-            continue
-        rows.append((
-            name, f"{run.simulated:g}", f"{run.wall:.0f}", f"{run.steps}", f"{run.impacts}",
-            f"{run.gap_first:.1e}", f"{run.gap_last:.1e}", f"{run.energy_share:.1e}",
-        ))  # fmt: skip
-    header = (
-        "scene", "time [s]", "took [s]", "steps", "impacts", "gap, first tenth [m]", "gap, last tenth [m]",
-        "energy open / turned over",
-    )  # fmt: skip
-    return text_table(header, rows)
+def _long_row(name: str, run: LongRun | str) -> tuple[str, ...]:
+    if isinstance(run, str):
+        return name, run, *("",) * 6
+    counts = (f"{run.simulated:g}", f"{run.wall:.0f}", f"{run.steps}", f"{run.impacts}")
+    return name, *counts, f"{run.gap_first:.1e}", f"{run.gap_last:.1e}", f"{run.energy_share:.1e}"
 
 
 # --- the study ---
@@ -239,22 +218,16 @@ def long_table(long: Long) -> Sheet:
 
 def work(chosen: Options) -> StudyOutcome:
     """All scenes and long runs, judged."""
-    found = cases(chosen.runs or DRAWN)
+    drawn = cases(chosen.runs or DRAWN)
     long = run_long(long_runs.DURATIONS, chosen.workers)
-    verdicts = judge_all(found, chosen.workers)
-    judged = list(zip(found, verdicts, strict=True))
-    tables = {
-        "table_kinds": kind_table(judged),
-        "table_reasons": reason_table(judged),
-        "table_silent": silent_table(judged),
-        "table_long": long_table(long),
-    }
-    return StudyOutcome(
-        numbers(judged, long), words(judged, long), figures(judged), tables, counts=counts(verdicts)
-    )
+    verdicts = judge_all(drawn, chosen.workers)
+    judged = list(zip(drawn, verdicts, strict=True))
+    counts = {f"runs_{outcome}": number for outcome, number in ended(verdicts).items()}
+    words = words_of(judged, long) | {"counts": counts}
+    return StudyOutcome(numbers(judged, long), words, figures(judged), tables(judged, long), counts=counts)
 
 
-def words(judged: Judged, long: Long) -> dict[str, object]:
+def words_of(judged: Judged, long: Long) -> dict[str, object]:
     """What the sentences are filled with."""
     every = [verdict for _, verdict in judged]
     shared = shares(judged)
@@ -266,26 +239,24 @@ def words(judged: Judged, long: Long) -> dict[str, object]:
         "limits": SimpleNamespace(OPEN=OPEN, DEEPEST=DEEPEST, FREE=FREE, LEAK=LEAK, MORE=MORE),
         "patience": PATIENCE,
         "sure": SURE,
-        "counts": counts(every),
         "silent": shared[SILENT, "drawn"],
         "good_in_box": shared[GOOD, SENSIBLE],
         "met_in_box": shared["accuracy_met", SENSIBLE],
         "no_scene": sum(verdict.reason.startswith(BEFORE) for verdict in every),
         "checked": checked_twice(every),
-        "maps": {group: _of_map(group, judged) for group in MAPS},
-        "energy_open": _largest([one.energy for one in every if one.outcome == GOOD]),
+        "maps": {group: _of_map(of_groups(judged, (group,))) for group in MAPS},
+        "energy_open": largest([one.energy for one in every if one.outcome == GOOD]),
         "lasting": lasting,
         "lost": {name: why for name, why in long.items() if isinstance(why, str)},
-        "gap": _largest([run.gap_last for run in lasting]),
-        "long_energy": _largest([run.energy_share for run in lasting]),
+        "gap": largest([run.gap_last for run in lasting]),
+        "long_energy": largest([run.energy_share for run in lasting]),
     }
 
 
-def _of_map(group: str, judged: Judged) -> dict[str, float]:
+def _of_map(here: Sequence[Judgement]) -> dict[str, float]:
     """How the runs of a map ended, and the errors of its good ones."""
-    here = of_groups(judged, (group,))
     errors = [verdict.error for verdict in here if verdict.outcome == GOOD]
-    return {**ended(here), "runs": len(here), "median": float(np.median(errors)), "worst": _largest(errors)}
+    return {**ended(here), "runs": len(here), "median": float(np.median(errors)), "worst": largest(errors)}
 
 
 study = Study("extremes", __doc__, work, seconds=830.0)

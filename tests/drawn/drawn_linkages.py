@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from studies.extremes.drawn import Draw
 from support_exudyn import (
     Body,
     ClearanceGuide,
@@ -28,13 +29,12 @@ from support_exudyn import (
 )
 from support_exudyn.mechanics.postures import set_moving
 from support_exudyn.model.linkage import GROUND, pinned
-from tests.drawn.fresh_legs import between
 from user_forces import JournalContact
 
 Place = tuple[float, float]
 Random = np.random.Generator
-Pins = Callable[[Random, float, float], ClearancePin]  # of a size and a stiffness against the support's
-Contacts = Callable[[Random, float, float], JournalContact]
+Pins = Callable[[Draw, float, float], ClearancePin]  # of a size and a stiffness against the support's
+Contacts = Callable[[Draw, float, float], JournalContact]
 SMALLEST, LARGEST = 0.05, 5.0  # linkages [m]
 OF_SUPPORT = 0.3  # size of a bore against the support's, per metre of the linkage
 SOFTER = 0.1  # stiffness of a contact against the support's
@@ -120,27 +120,27 @@ def _corner(top: Place, a: Place, b: Place) -> float:
 # --- scenes ---
 
 
-def chain_scene(random: Random, pin: Pins) -> Scenario:
+def chain_scene(of: Draw, pin: Pins) -> Scenario:
     """Draw a four-, six- or eight-bar with clearance in up to three pins; its crank is driven or free."""
-    size = between(random, SMALLEST, LARGEST)
-    linkage = chain(random, int(random.integers(1, 4)), size)
-    masses = {name: between(random, 0.5, 4.0) * (2.0 * size) ** 2 for name in linkage.bodies}
+    size = of.log(SMALLEST, LARGEST)
+    linkage = chain(of.random, int(of.random.integers(1, 4)), size)
+    masses = {name: of.log(0.5, 4.0) * (2.0 * size) ** 2 for name in linkage.bodies}
     bodies = {
         n: replace(one, mass=masses[n], inertia=masses[n] * one.inertia) for n, one in linkage.bodies.items()
     }
-    names = random.permutation(list(linkage.pins)).tolist()[: int(random.integers(1, 4))]
-    pins = {name: pin(random, OF_SUPPORT * size, SOFTER) for name in names}
-    return _scene(random, replace(linkage, bodies=bodies), "link_1", pins=pins)
+    names = of.random.permutation(list(linkage.pins)).tolist()[: int(of.random.integers(1, 4))]
+    pins = {name: pin(of, OF_SUPPORT * size, SOFTER) for name in names}
+    return _scene(of, replace(linkage, bodies=bodies), "link_1", pins=pins)
 
 
-def guide_scene(random: Random, pin: Pins, contact: Contacts) -> Scenario:
+def guide_scene(of: Draw, pin: Pins, contact: Contacts) -> Scenario:
     """Draw a slider-crank whose slider has clearance in its guide; two thirds start symmetric to it."""
-    size = between(random, SMALLEST, LARGEST)
-    crank, rod = size * float(random.uniform(0.15, 0.4)), size
-    symmetric = random.uniform() < 0.67  # both corners of a face then meet the wall at one instant
-    knee = towards(0.0 if symmetric else float(random.uniform(-60.0, 60.0)), crank)
+    size = of.log(SMALLEST, LARGEST)
+    crank, rod = size * of.even(0.15, 0.4), size
+    symmetric = of.chance(0.67)  # both corners of a face then meet the wall at one instant
+    knee = towards(0.0 if symmetric else of.even(-60.0, 60.0), crank)
     end = (knee[0] + math.sqrt(rod**2 - knee[1] ** 2), 0.0)
-    mass, block = between(random, 0.5, 4.0) * (2.0 * size) ** 2, (0.2 * size, 0.1 * size)
+    mass, block = of.log(0.5, 4.0) * (2.0 * size) ** 2, (0.2 * size, 0.1 * size)
     linkage = Linkage(
         bodies={
             "crank": bar_of((0.0, 0.0), knee, 0.5 * mass),
@@ -154,23 +154,23 @@ def guide_scene(random: Random, pin: Pins, contact: Contacts) -> Scenario:
         },
         slides={"guide": Slide(body="slider", point=end)},
     )
-    law = contact(random, OF_SUPPORT * size, SOFTER)
+    law = contact(of, OF_SUPPORT * size, SOFTER)
     guide = ClearanceGuide(
         gaps=(law.bearing.clearance, law.bearing.clearance),
         block=block,
         normal=law.normal,
         friction=law.friction,
     )
-    loose = {"wrist": pin(random, OF_SUPPORT * size, SOFTER)} if random.uniform() < 0.3 else {}
-    return _scene(random, linkage, "slider", pins=loose, guides={"guide": guide})
+    loose = {"wrist": pin(of, OF_SUPPORT * size, SOFTER)} if of.chance(0.3) else {}
+    return _scene(of, linkage, "slider", pins=loose, guides={"guide": guide})
 
 
-def parallelogram_scene(random: Random, pin: Pins) -> Scenario:
+def parallelogram_scene(of: Draw, pin: Pins) -> Scenario:
     """Draw a table on two equal links with four equal loose pins, whose contacts meet at one instant."""
-    size = between(random, SMALLEST, LARGEST)
-    up, wide = towards(float(random.uniform(40.0, 140.0)), 0.5 * size), (size, 0.0)
+    size = of.log(SMALLEST, LARGEST)
+    up, wide = towards(of.even(40.0, 140.0), 0.5 * size), (size, 0.0)
     corner = (wide[0] + up[0], up[1])
-    mass = between(random, 0.5, 4.0) * (2.0 * size) ** 2
+    mass = of.log(0.5, 4.0) * (2.0 * size) ** 2
     linkage = Linkage(
         bodies={
             "left": bar_of((0.0, 0.0), up, 0.3 * mass),
@@ -184,34 +184,34 @@ def parallelogram_scene(random: Random, pin: Pins) -> Scenario:
             "D": pinned(GROUND, "right", wide),
         },
     )
-    same = replace(pin(random, OF_SUPPORT * size, SOFTER), eccentricity=(0.0, 0.0))
-    fall = float(random.uniform(0.02, 0.2)) * math.sqrt(size / 9.81)
+    same = replace(pin(of, OF_SUPPORT * size, SOFTER), eccentricity=(0.0, 0.0))
+    fall = of.even(0.02, 0.2) * math.sqrt(size / 9.81)
     return Scenario(
         machine=PlanarLinkage(drawing=_traced(linkage, "table")), pins=dict.fromkeys(linkage.pins, same),
-        drive=Held(), gravity=GRAVITY, **_lasting(random, fall),
+        drive=Held(), gravity=GRAVITY, **_lasting(of, fall),
     )  # fmt: skip
 
 
-def _scene(random: Random, linkage: Linkage, body: str, **fields: Any) -> Scenario:
+def _scene(of: Draw, linkage: Linkage, body: str, **fields: Any) -> Scenario:
     """The scene of a linkage whose first body, the crank, is driven, or moves freely from its start on."""
-    rate = between(random, 2.0, 20.0) * float(random.choice([-1.0, 1.0]))
-    duration = float(random.uniform(*TURN)) / abs(rate)
+    rate = of.log(2.0, 20.0) * float(of.random.choice([-1.0, 1.0]))
+    duration = of.even(*TURN) / abs(rate)
     stroke = CubicStep(stroke=rate * duration, start=0.0, end=duration)
     drives: tuple[Drive, ...] = (Held(), Steady(rate=rate), stroke)
-    drive, crank = drives[int(random.integers(len(drives)))], next(iter(linkage.bodies))
+    drive, crank = of.pick(drives), next(iter(linkage.bodies))
     drawing = _traced(linkage, body)
     if isinstance(drive, Held):  # nothing drives it
         drawing = set_moving(drawing, {crank: rate})
     else:
         drawing = replace(drawing, cranks={"crank": Crank(body=crank)})
-    fields["gravity"] = GRAVITY if random.uniform() < 0.5 else (0.0, 0.0)
-    return Scenario(machine=PlanarLinkage(drawing=drawing), drive=drive, **fields, **_lasting(random, duration))
+    fields["gravity"] = GRAVITY if of.chance(0.5) else (0.0, 0.0)
+    return Scenario(machine=PlanarLinkage(drawing=drawing), drive=drive, **fields, **_lasting(of, duration))
 
 
-def _lasting(random: Random, duration: float) -> dict[str, Any]:
+def _lasting(of: Draw, duration: float) -> dict[str, Any]:
     """Of a run that lasts so long [s]: records far too coarse, and in a fifth the engine's formulation."""
-    period = duration / float(random.uniform(*RECORDS))
-    formulation = "exudyn" if random.uniform() < 0.2 else "auto"
+    period = duration / of.even(*RECORDS)
+    formulation = "exudyn" if of.chance(0.2) else "auto"
     return {"duration": duration, "record_period": period, "formulation": formulation}
 
 

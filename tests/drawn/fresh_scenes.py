@@ -6,7 +6,7 @@ that are drawn themselves, with records far too coarse. The same seed and number
 """
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import TypeVar
@@ -15,6 +15,9 @@ import numpy as np
 
 import user_forces as forces
 from studies.common import paper_machine
+from studies.extremes.drawn import Draw
+from studies.extremes.legs import LINE, Leg, drawn_pump, with_elements
+from studies.extremes.supports import leg_heads, pressing_roof
 from support_exudyn import (
     ClearancePin,
     CubicStep,
@@ -23,6 +26,7 @@ from support_exudyn import (
     Held,
     HydraulicCylinder,
     Inlet,
+    Line,
     Machine,
     OilColumn,
     OwnBody,
@@ -39,9 +43,7 @@ from support_exudyn import (
     reference_support,
 )
 from support_exudyn.mechanics.hydraulic_legs import static_loads
-from support_exudyn.scenario.scenario_data import Accuracy
 from tests.drawn.drawn_linkages import chain_scene, guide_scene, parallelogram_scene
-from tests.drawn.fresh_legs import Leg, between, hose, pump, with_elements
 from user_forces.normal.hysteresis import REST_VELOCITY
 from user_forces.normal.power_laws import PowerLaw
 
@@ -60,7 +62,6 @@ RUBBING: tuple[Callable[[float], forces.FrictionLaw], ...] = (
 SHORTEST = 0.04  # [s] of a run of the support
 RECORDS = 200  # of a run
 MOST_STEPS = 200_000  # of a run; none of these scenes is worth more
-REFERENCE_SHARE = 5  # each fifth scene is also run to the accuracy "reference"
 DRAWS = 100  # scenes that do not fit together are drawn again
 GRAVITY = (0.0, -9.81)  # [m/s^2]
 SPEED_OF_STROKE = 0.3  # [m/s], the fastest that columns extend
@@ -68,110 +69,94 @@ SPEED_OF_STROKE = 0.3  # [m/s], the fastest that columns extend
 
 @dataclass(frozen=True)
 class Fresh:
-    """A scene of a seed: its number, kind, and scenario, in which no accuracy is asked for yet."""
+    """A scene of a seed: its kind and its scenario, in which no accuracy is asked for yet."""
 
-    seed: int
-    number: int
     kind: str
     scenario: Scenario
 
-    @property
-    def accuracies(self) -> tuple[Accuracy, ...]:
-        """It is run to these accuracies."""
-        share = self.number // 2 % REFERENCE_SHARE == 0
-        return ("draft", "standard", "reference") if share else ("draft", "standard")
 
-
-def fresh(seed: int, number: int, kind: str = "") -> Fresh:
-    """The scene of a seed with this number, both from 0 on: machines and linkages in turn, or of this kind."""
+def fresh(seed: int, number: int) -> Fresh:
+    """The scene of a seed with this number, both from 0 on: machines and linkages in turn."""
     kinds = list(LINKAGES if number % 2 else MACHINES)
-    kind = kind or kinds[number // 2 % len(kinds)]
-    random = np.random.default_rng([seed, number])
+    kind = kinds[number // 2 % len(kinds)]
+    of = Draw(np.random.default_rng([seed, number]), sensible=True)
     for _ in range(DRAWS):
         try:
-            scenario = KINDS[kind](random)
+            scenario = KINDS[kind](of)
             scenario.linkage  # noqa: B018  # journals may not fit where they are to start
         except forces.InputError:
             continue
-        return Fresh(seed, number, kind, scenario)
+        return Fresh(kind, scenario)
     raise RuntimeError(f"seed {seed}, scene {number}: {DRAWS} draws gave no {kind} that fits together")
 
 
 # --- what is drawn ---
 
 
-def _pick(random: np.random.Generator, items: Sequence[T]) -> T:
-    """Draw one of some items."""
-    return items[int(random.integers(len(items)))]
-
-
-def _some_pin(random: np.random.Generator, rear: float = 0.0) -> str:
+def _some_pin(of: Draw, rear: float = 0.0) -> str:
     """Draw the name of a pin of the support; with this chance the rear-link pin before all."""
-    if rear and random.uniform() < rear:
+    if rear and of.chance(rear):
         return paper_machine.CLEARANCE_PIN
-    return _pick(random, list(reference_support().linkage().pins))
+    return of.pick(list(reference_support().linkage().pins))
 
 
-def _contact(random: np.random.Generator, size: float, stiffness: float) -> forces.JournalContact:
+def _contact(of: Draw, size: float, stiffness: float) -> forces.JournalContact:
     """Draw a pin's contact; size and stiffness of its bearing are multiples of those of the support."""
     bearing = forces.JournalBearing(
-        bore_radius=paper_machine.BORE_RADIUS * size, clearance=between(random, 1e-4, 3e-3) * size
+        bore_radius=paper_machine.BORE_RADIUS * size, clearance=of.log(1e-4, 3e-3) * size
     )
-    law = _pick(random, LAWS)
-    exponent = 1.5 if random.uniform() < 0.7 else float(random.uniform(1.0, 2.0))
+    law = of.pick(LAWS)
+    exponent = 1.5 if of.chance(0.7) else of.even(1.0, 2.0)
     normal = law(
-        stiffness=stiffness
-        * between(random, 0.1, 5.0)
-        * paper_machine.stiffness(1.5)
-        * 1e-4 ** (1.5 - exponent),
+        stiffness=stiffness * of.log(0.1, 5.0) * paper_machine.stiffness(1.5) * 1e-4 ** (1.5 - exponent),
         exponent=exponent,
-        restitution=float(random.uniform(0.3, 0.98)),
-        rest_velocity=REST_VELOCITY if random.uniform() < 0.6 else between(random, 1e-3, 5e-2),
+        restitution=of.even(0.3, 0.98),
+        rest_velocity=REST_VELOCITY if of.chance(0.6) else of.log(1e-3, 5e-2),
     )
-    return forces.JournalContact(bearing=bearing, normal=normal, friction=_friction(random))
+    return forces.JournalContact(bearing=bearing, normal=normal, friction=_friction(of))
 
 
-def _friction(random: np.random.Generator) -> forces.FrictionLaw:
-    if random.uniform() < 0.4:
+def _friction(of: Draw) -> forces.FrictionLaw:
+    if of.chance(0.4):
         return forces.Frictionless()
-    coefficient = float(random.uniform(0.02, 0.4))
-    if random.uniform() < 0.6:
-        return _pick(random, RUBBING)(coefficient)
-    static = between(random, 1e-4, 1e-3)
+    coefficient = of.even(0.02, 0.4)
+    if of.chance(0.6):
+        return of.pick(RUBBING)(coefficient)
+    static = of.log(1e-4, 1e-3)
     return forces.Ambrosio(
         sliding_coefficient=coefficient,
         static_speed=static,
-        dynamic_speed=static * between(random, 3.0, 100.0),
+        dynamic_speed=static * of.log(3.0, 100.0),
     )
 
 
-def _pin(random: np.random.Generator, size: float = 1.0, stiffness: float = 1.0) -> ClearancePin:
-    contact = _contact(random, size, stiffness)
-    away = contact.bearing.clearance * float(random.uniform(0.0, 1.0)) if random.uniform() < 0.3 else 0.0
-    angle = float(random.uniform(0.0, 2.0 * math.pi))
+def _pin(of: Draw, size: float = 1.0, stiffness: float = 1.0) -> ClearancePin:
+    contact = _contact(of, size, stiffness)
+    away = contact.bearing.clearance * of.even(0.0, 1.0) if of.chance(0.3) else 0.0
+    angle = of.even(0.0, 2.0 * math.pi)
     return ClearancePin(
         contact=contact,
-        bore="first" if random.uniform() < 0.5 else "second",
+        bore="first" if of.chance(0.5) else "second",
         eccentricity=(away * math.cos(angle), away * math.sin(angle)),
     )
 
 
-def _drive(random: np.random.Generator, duration: float) -> Drive:
+def _drive(of: Draw, duration: float) -> Drive:
     """Draw a drive of columns: none, or one that goes as far as the fastest does in that time [s]."""
-    far = float(random.uniform(-1.0, 1.0)) * SPEED_OF_STROKE * duration
-    begin, end = (share * duration for share in sorted(random.uniform(0.0, 1.0, 2).tolist()))
+    far = of.even(-1.0, 1.0) * SPEED_OF_STROKE * duration
+    begin, end = (share * duration for share in sorted((of.even(0.0, 1.0), of.even(0.0, 1.0))))
     drives: tuple[Callable[[], Drive], ...] = (
         Held,
         lambda: CubicStep(stroke=far, start=begin, end=end + 0.2 * duration),
         lambda: UniformSpeed(stroke=0.3 * far, start=begin, end=end + 0.2 * duration),
-        lambda: Reciprocating(stroke=0.2 * abs(far), period=duration * float(random.uniform(0.5, 2.0))),
+        lambda: Reciprocating(stroke=0.2 * abs(far), period=duration * of.even(0.5, 2.0)),
     )
-    return _pick(random, drives)()
+    return of.pick(drives)()
 
 
-def _start(random: np.random.Generator, scenario: Scenario) -> Scenario:
+def _start(of: Draw, scenario: Scenario) -> Scenario:
     """The scenario, in a quarter of all cases settled at the start, all journals then in the middle."""
-    if random.uniform() > 0.25:
+    if of.even(0.0, 1.0) > 0.25:
         return scenario
     pins = {
         name: replace(pin, eccentricity=(0.0, 0.0)) if isinstance(pin, ClearancePin) else pin
@@ -181,32 +166,32 @@ def _start(random: np.random.Generator, scenario: Scenario) -> Scenario:
 
 
 def _scene(
-    random: np.random.Generator,
+    of: Draw,
     machine: Machine,
     pins: Mapping[str, ClearancePin],
     longest: float,
     **more: object,
 ) -> Scenario:
-    duration = between(random, SHORTEST, longest)
+    duration = of.log(SHORTEST, longest)
     fields: dict[str, object] = {
         "machine": machine, "pins": pins, "duration": duration, "record_period": duration / RECORDS,
-        "drive": _drive(random, duration), "solver": SolverSettings(most_steps=MOST_STEPS),
+        "drive": _drive(of, duration), "solver": SolverSettings(most_steps=MOST_STEPS),
     }  # fmt: skip
-    return _start(random, Scenario(**(fields | more)))  # type: ignore[arg-type]
+    return _start(of, Scenario(**(fields | more)))  # type: ignore[arg-type]
 
 
 def _oil(
-    random: np.random.Generator,
+    of: Draw,
     bore: tuple[float, float] = (0.15, 0.3),
     length: tuple[float, float] = (0.2, 0.8),
     columns: int = 2,
 ) -> OilColumn:
     """Draw a column of oil, or so many side by side; diameters of bores and lengths in m."""
     return OilColumn(
-        bore_area=bore_area(float(random.uniform(*bore)), columns),
-        oil_length=float(random.uniform(*length)),
-        bulk_modulus=between(random, 7e8, 2e9),
-        line=hose(random),
+        bore_area=bore_area(of.even(*bore), columns),
+        oil_length=of.even(*length),
+        bulk_modulus=of.log(7e8, 2e9),
+        line=Line(**of.sizes(LINE)),
     )
 
 
@@ -217,137 +202,129 @@ def _columns(oil: OilColumn) -> dict[str, OilColumn]:
 # --- the kinds ---
 
 
-def _rear_pin(random: np.random.Generator) -> Scenario:
+def _rear_pin(of: Draw) -> Scenario:
     """A rear pin; a third of these scenes ask for the engine's formulation."""
-    scene = _scene(random, reference_support(), {paper_machine.CLEARANCE_PIN: _pin(random)}, 0.4)
-    return replace(scene, formulation="exudyn", start="concentric") if random.uniform() < 0.33 else scene
+    scene = _scene(of, reference_support(), {paper_machine.CLEARANCE_PIN: _pin(of)}, 0.4)
+    return replace(scene, formulation="exudyn", start="concentric") if of.chance(0.33) else scene
 
 
-def _any_pin(random: np.random.Generator) -> Scenario:
-    name = _some_pin(random)
-    return _scene(random, reference_support(), {name: _pin(random)}, 0.12)
+def _any_pin(of: Draw) -> Scenario:
+    name = _some_pin(of)
+    return _scene(of, reference_support(), {name: _pin(of)}, 0.12)
 
 
-def _several_pins(random: np.random.Generator) -> Scenario:
+def _several_pins(of: Draw) -> Scenario:
     machine = reference_support()
-    names = random.permutation(list(machine.linkage().pins)).tolist()
-    chosen = names[: int(random.integers(2, len(names) + 1))]
-    return _scene(random, machine, {name: _pin(random) for name in chosen}, 0.08)
+    names = of.random.permutation(list(machine.linkage().pins)).tolist()
+    chosen = names[: int(of.random.integers(2, len(names) + 1))]
+    return _scene(of, machine, {name: _pin(of) for name in chosen}, 0.08)
 
 
-def _on_oil(random: np.random.Generator) -> Scenario:
+def _on_oil(of: Draw) -> Scenario:
     """Columns of oil; a third of these scenes ask for the engine's formulation."""
-    name = _some_pin(random, rear=0.6)
-    scene = _scene(random, reference_support(), {name: _pin(random)}, 0.2, actuators=_columns(_oil(random)))
-    return replace(scene, formulation="exudyn") if random.uniform() < 0.33 else scene
+    name = _some_pin(of, rear=0.6)
+    scene = _scene(of, reference_support(), {name: _pin(of)}, 0.2, actuators=_columns(_oil(of)))
+    return replace(scene, formulation="exudyn") if of.chance(0.33) else scene
 
 
-def _on_cylinders(random: np.random.Generator) -> Scenario:
-    duration = between(random, SHORTEST, 0.12)
-    begin, end = (duration * float(random.uniform(low, low + 0.5)) for low in (0.0, 0.5))
+def _on_cylinders(of: Draw) -> Scenario:
+    duration = of.log(SHORTEST, 0.12)
+    begin, end = (duration * of.even(low, low + 0.5) for low in (0.0, 0.5))
     ramp = 0.4 * max(end - begin, 0.02)
-    extent = float(random.uniform(-1.0, 1.0))
+    extent = of.even(-1.0, 1.0)
     inlets: tuple[Inlet, ...] = (
         SuddenOpening(start=begin, end=end + 0.02, extent=extent),
         RampedOpening(start=begin, end=end + 0.02, ramp=ramp, extent=extent),
     )
-    cylinder = paper_machine.hydraulic_cylinders(_pick(random, inlets))["front_column"]
-    cylinder = replace(cylinder, bulk_modulus=between(random, 7e8, 2e9))
+    cylinder = paper_machine.hydraulic_cylinders(of.pick(inlets))["front_column"]
+    cylinder = replace(cylinder, bulk_modulus=of.log(7e8, 2e9))
     columns: dict[str, HydraulicCylinder] = {"front_column": cylinder, "rear_column": cylinder}
-    pins = {paper_machine.CLEARANCE_PIN: _pin(random)} if random.uniform() < 0.8 else {}
-    scene = _scene(random, reference_support(), pins, 0.3, actuators=columns, drive=Held())
+    pins = {paper_machine.CLEARANCE_PIN: _pin(of)} if of.chance(0.8) else {}
+    scene = _scene(of, reference_support(), pins, 0.3, actuators=columns, drive=Held())
     return replace(scene, duration=duration, record_period=duration / RECORDS, start="concentric")
 
 
-def _on_legs(random: np.random.Generator) -> Scenario:
+def _on_legs(of: Draw) -> Scenario:
     """Columns of oil, or cylinders on a pump, with valves, hoses, air, seals.
 
     A third of these scenes ask for the engine's formulation.
     """
-    pins = {_some_pin(random, rear=0.6): _pin(random)} if random.uniform() < 0.6 else {}
+    pins = {_some_pin(of, rear=0.6): _pin(of)} if of.chance(0.6) else {}
     loads = static_loads(reference_support().linkage(), GRAVITY)
     columns: dict[str, Leg]
-    if random.uniform() < 0.5:
-        columns = {name: with_elements(random, _oil(random), load) for name, load in loads.items()}
-        scene = _scene(random, reference_support(), pins, 0.15, actuators=columns)
+    if of.chance(0.5):
+        columns = {name: with_elements(of, _oil(of), load) for name, load in loads.items()}
+        scene = _scene(of, reference_support(), pins, 0.15, actuators=columns)
     else:
-        base = _on_cylinders(random)
-        columns = {name: with_elements(random, leg, loads[name]) for name, leg in base.valved.items()}
-        shared = pump(random, base.valved["front_column"].system_pressure) if random.uniform() < 0.7 else None
+        base = _on_cylinders(of)
+        columns = {name: with_elements(of, leg, loads[name]) for name, leg in base.valved.items()}
+        shared = drawn_pump(of, base.valved["front_column"].system_pressure) if of.chance(0.7) else None
         scene = replace(base, pins=pins, actuators=columns, pump=shared)
-    if random.uniform() < 0.4:
-        scene = replace(scene, loads={"roof": _roof(random, scene.duration, sum(loads.values()))})
-    return replace(scene, formulation="exudyn") if random.uniform() < 0.33 else scene
+    if of.chance(0.4):
+        scene = replace(scene, loads={"roof": _roof(of, scene.duration, sum(loads.values()))})
+    return replace(scene, formulation="exudyn") if of.chance(0.33) else scene
 
 
-def _roof(random: np.random.Generator, duration: float, weight: float) -> Roof:
-    """A roof that comes down between both columns, and presses with up to three times the weight [N]."""
-    linkage = reference_support().linkage()
-    x = [actuator.head_point[0] for actuator in linkage.actuators.values()]
-    stiffness, gap = between(random, 1e7, 1e9), 1e-3
-    way = gap + weight * float(random.uniform(0.5, 3.0)) / stiffness
-    return Roof(
-        body="canopy",
-        point=(sum(x) / len(x), linkage.points["tip"].point[1]),
-        descent=CubicStep(stroke=way, start=0.0, end=0.9 * duration),
-        stiffness=stiffness,
-        gap=gap,
-    )
+def _roof(of: Draw, duration: float, weight: float) -> Roof:
+    """A roof that comes down between both columns, and loads it with up to three times the weight [N]."""
+    stiffness, machine = of.log(1e7, 1e9), reference_support()
+    force, span = weight * of.even(0.5, 3.0), (0.0, 0.9 * duration)
+    return pressing_roof(machine, leg_heads(machine), 1e-3, stiffness, force, span)
 
 
-def _under_block(random: np.random.Generator) -> Scenario:
+def _under_block(of: Draw) -> Scenario:
     """A rock on the canopy, with and without a clearance pin, columns rigid or on oil."""
     machine = reference_support()
     tip = machine.linkage().points["tip"].point
     hinge = machine.start().hinge
-    share = float(random.uniform(0.2, 0.8))
+    share = of.even(0.2, 0.8)
     block = FallingBlock(
         body="canopy",
         point=(tip[0] + share * (hinge[0] - tip[0]), tip[1]),
-        mass=between(random, 100.0, 3000.0),
-        height=float(random.uniform(0.0, 0.05)) + 1e-4,
-        speed=float(random.uniform(0.5, 4.0)),
-        stiffness=between(random, 1e8, 3e9),
-        restitution=float(random.uniform(0.2, 0.9)),
+        mass=of.log(100.0, 3000.0),
+        height=of.even(0.0, 0.05) + 1e-4,
+        speed=of.even(0.5, 4.0),
+        stiffness=of.log(1e8, 3e9),
+        restitution=of.even(0.2, 0.9),
     )
-    pins = {_some_pin(random): _pin(random)} if random.uniform() < 0.6 else {}
-    columns = _columns(_oil(random)) if random.uniform() < 0.5 else {}
+    pins = {_some_pin(of): _pin(of)} if of.chance(0.6) else {}
+    columns = _columns(_oil(of)) if of.chance(0.5) else {}
     return replace(
-        _scene(random, machine, pins, 0.12, actuators=columns, loads={"rock": block}), start="concentric"
+        _scene(of, machine, pins, 0.12, actuators=columns, loads={"rock": block}), start="concentric"
     )
 
 
-def _tail_beam(random: np.random.Generator) -> Scenario:
-    jack = _oil(random, (0.1, 0.18), (0.15, 0.5), 1)
-    columns = _columns(_oil(random)) if random.uniform() < 0.5 else {}
-    pins = {paper_machine.CLEARANCE_PIN: _pin(random)}
+def _tail_beam(of: Draw) -> Scenario:
+    jack = _oil(of, (0.1, 0.18), (0.15, 0.5), 1)
+    columns = _columns(_oil(of)) if of.chance(0.5) else {}
+    pins = {paper_machine.CLEARANCE_PIN: _pin(of)}
     parts = {"tail_beam": OwnBody(jack=jack)}
-    return _scene(random, reference_support(), pins, 0.15, parts=parts, actuators=columns)
+    return _scene(of, reference_support(), pins, 0.15, parts=parts, actuators=columns)
 
 
-def _crank(random: np.random.Generator) -> Scenario:
+def _crank(of: Draw) -> Scenario:
     """A revolution or less, at 200 to 6000 revolutions a minute; half of these scenes are without weight."""
-    speed = 2.0 * math.pi / 60.0 * between(random, 200.0, 6000.0)
-    duration = float(random.uniform(0.1, 1.0)) * 2.0 * math.pi / speed
+    speed = 2.0 * math.pi / 60.0 * of.log(200.0, 6000.0)
+    duration = of.even(0.1, 1.0) * 2.0 * math.pi / speed
     scene = Scenario(
-        machine=replace(ravn_slider_crank(), start_angle=float(random.uniform(0.0, 2.0 * math.pi))),
-        pins={"slider_pin": _pin(random, 0.15, 0.1)},
+        machine=replace(ravn_slider_crank(), start_angle=of.even(0.0, 2.0 * math.pi)),
+        pins={"slider_pin": _pin(of, 0.15, 0.1)},
         drive=Steady(rate=speed),
         duration=duration,
         record_period=duration / RECORDS,
-        gravity=(0.0, -9.81 if random.uniform() < 0.5 else 0.0),
+        gravity=(0.0, -9.81 if of.chance(0.5) else 0.0),
         solver=SolverSettings(most_steps=MOST_STEPS),
     )
-    return replace(scene, formulation="exudyn") if random.uniform() < 0.33 else scene
+    return replace(scene, formulation="exudyn") if of.chance(0.33) else scene
 
 
-def _in_space(random: np.random.Generator) -> Scenario:
-    name = _some_pin(random, rear=0.5)
-    columns = _columns(_oil(random)) if random.uniform() < 0.5 else {}
-    return _scene(random, reference_support(), {name: _pin(random)}, 0.08, actuators=columns, dimensions=3)
+def _in_space(of: Draw) -> Scenario:
+    name = _some_pin(of, rear=0.5)
+    columns = _columns(_oil(of)) if of.chance(0.5) else {}
+    return _scene(of, reference_support(), {name: _pin(of)}, 0.08, actuators=columns, dimensions=3)
 
 
-Kinds = Mapping[str, Callable[[np.random.Generator], Scenario]]
+Kinds = Mapping[str, Callable[[Draw], Scenario]]
 MACHINES: Kinds = {
     "rear pin": _rear_pin,
     "any pin": _any_pin,

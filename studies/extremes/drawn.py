@@ -1,8 +1,13 @@
-"""What the extremes are: ranges of all that is varied, and the box of what is physically sensible."""
+"""The generator of all drawn scenes: what is varied, how far, and a pin at a point of these ranges.
+
+Every range has a part that is sensible. The study draws from the whole or from that part; tests that measure
+errors draw from that part. The same numbers of a generator give the same scene.
+"""
 
 import math
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal, NamedTuple
+from typing import Literal, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -26,30 +31,74 @@ from user_forces import (
 )
 from user_forces.normal.power_laws import PowerLaw
 
+T = TypeVar("T")
 POWER_LAWS: tuple[type[PowerLaw], ...] = (LankaraniNikravesh, Exact, HuntCrossley, Gonthier, Flores)
 LAWS = (*(law.__name__ for law in POWER_LAWS), PinInBore.__name__)
 PAPER = paper_machine.stiffness(1.5)  # N/m^1.5
-DEPTH = 1e-3  # [m] at which laws of all exponents press alike
+DEPTH = 1e-3  # [m] at which laws of all exponents have the same force
 BORE_RADIUS = paper_machine.BORE_RADIUS
 SLENDERNESS = 0.7 / BORE_RADIUS  # length of the pin over the radius of its bore
 MODULUS = effective_modulus(STEEL, STEEL_35CRMO)
+LARGEST_SPEED = 0.1  # of friction laws [m/s]
+WITHOUT_FRICTION = 0.3  # share of the random scenes
 
 
 class Span(NamedTuple):
-    """A range, and what of it is physically sensible; logarithmic unless said otherwise."""
+    """A range, and what of it is sensible; its logarithm is drawn evenly, or the value itself if `even`."""
 
     low: float
     high: float
     sensible: tuple[float, float]
     even: bool = False
 
-    def draw(self, share: float, box: bool) -> float:
+    def draw(self, share: float, sensible: bool) -> float:
         """The value at a share of the range, 0 to 1."""
-        low, high = self.sensible if box else (self.low, self.high)
+        low, high = self.sensible if sensible else (self.low, self.high)
         if self.even:
             return low + share * (high - low)
         return low * math.pow(high / low, share)
 
+
+@dataclass(frozen=True)
+class Draw:
+    """Random choices.
+
+    random: the generator of numbers. sensible: whether `size` keeps to the sensible part of every range.
+    """
+
+    random: np.random.Generator
+    sensible: bool = False
+
+    def even(self, low: float, high: float) -> float:
+        """A number between two."""
+        return float(self.random.uniform(low, high))
+
+    def log(self, low: float, high: float) -> float:
+        """A number between two whose logarithm is drawn evenly."""
+        return low * math.pow(high / low, self.even(0.0, 1.0))
+
+    def size(self, span: Span) -> float:
+        """A number of a range."""
+        return span.draw(self.even(0.0, 1.0), self.sensible)
+
+    def sizes(self, spans: Mapping[str, Span]) -> dict[str, float]:
+        """Numbers of several ranges, by their names."""
+        return {name: self.size(span) for name, span in spans.items()}
+
+    def chance(self, share: float) -> bool:
+        """True in this share of all draws."""
+        return self.even(0.0, 1.0) < share
+
+    def pick(self, items: Sequence[T]) -> T:
+        """One of several items."""
+        return items[int(self.random.integers(len(items)))]
+
+    def maybe(self, share: float, make: Callable[[], T]) -> T | None:
+        """An element in this share of all draws, else none."""
+        return make() if self.chance(share) else None
+
+
+# --- a clearance pin ---
 
 SPANS = {
     "clearance_m": Span(1e-6, 2e-2, (5e-5, 5e-3)),
@@ -62,8 +111,6 @@ SPANS = {
     "step_s": Span(1e-6, 1e-2, (1e-5, 1e-3)),
     "spectral_radius": Span(0.0, 1.0, (0.0, 1.0), even=True),
 }
-LARGEST_SPEED = 0.1  # of friction laws [m/s]
-WITHOUT_FRICTION = 0.3  # share of the random scenes
 
 
 @dataclass(frozen=True)
@@ -83,7 +130,7 @@ class Point:
     bore: Literal["first", "second"] = "first"
     eccentricity: tuple[float, float] = (0.0, 0.0)  # in clearances
     bore_radius: float = BORE_RADIUS  # [m]
-    pace: float = 1.0  # by which runs are as long, in time and steps
+    pace: float = 1.0  # factor on the duration of a run and on its number of steps
 
     @property
     def pin(self) -> ClearancePin:
@@ -96,7 +143,7 @@ class Point:
 
     @property
     def normal(self) -> NormalLaw:
-        """The law of the normal force: as strong as the paper's at a depth of 1 mm, whatever its exponent.
+        """The law of the normal force: that of the paper at a depth of 1 mm, whatever its exponent.
 
         A pin along its length has no exponent, and a modulus from a tenth to ten times that of steel.
         """
@@ -123,20 +170,17 @@ class Point:
         )
 
 
-def drawn(random: np.random.Generator, box: bool) -> Point:
-    """A random point, of the whole range or of the box."""
-    shares = random.uniform(size=len(SPANS))
-    found = {
-        name: span.draw(float(share), box) for (name, span), share in zip(SPANS.items(), shares, strict=True)
-    }
-    static = found.pop("static_speed_m_s")
-    dynamic = min(LARGEST_SPEED, static * found.pop("ramp"))
-    if random.uniform() < WITHOUT_FRICTION:
-        found["mu"] = 0.0
+def drawn_point(of: Draw) -> Point:
+    """A point of the ranges."""
+    sizes = of.sizes(SPANS)
+    static = sizes.pop("static_speed_m_s")
+    dynamic = min(LARGEST_SPEED, static * sizes.pop("ramp"))
+    if of.chance(WITHOUT_FRICTION):
+        sizes["mu"] = 0.0
     return Point(
-        **found,  # type: ignore[arg-type]
-        static_speed_m_s=static if dynamic > static and random.uniform() < 0.9 else 0.0,
+        **sizes,  # type: ignore[arg-type]
+        static_speed_m_s=static if dynamic > static and of.chance(0.9) else 0.0,
         dynamic_speed_m_s=dynamic,
-        law=LAWS[random.integers(len(LAWS))],
-        bore="first" if random.uniform() < 0.5 else "second",
+        law=of.pick(LAWS),
+        bore="first" if of.chance(0.5) else "second",
     )
