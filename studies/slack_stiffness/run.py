@@ -7,38 +7,273 @@ within it and beyond it, and what links and legs carry.
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Mapping
-from typing import Any
+from dataclasses import dataclass
+from functools import cached_property
 
-from matplotlib.axes import Axes
+import numpy as np
 from matplotlib.figure import Figure
 
-from studies.common.numbers import Found, Number, by_case, cell
+from studies.common.numbers import Found, Number, by_case, cell, measured
 from studies.common.options import Options
-from studies.common.panels import finish
+from studies.common.panels import finish, grid
+from studies.common.rise import Mask, MeasuredRun, Series, between
 from studies.common.runs import run_cases
 from studies.common.study import Study, StudyOutcome
+from studies.common.support_legs import PAIRS, legs_data, loose_pins, support, tight_pins
 from studies.common.words import text_table
-from studies.slack_stiffness import loops as plan
-from studies.slack_stiffness.loops import (
-    CLEARANCES_MM,
-    FRICTION,
-    MACHINES,
-    ROOF_SHARES,
-    Loop,
-    PushedSupport,
-    cases,
-    kinematic_slack,
-    numbers,
-    participation,
-    pin_shares,
-)
-from support_exudyn import Result
+from support_exudyn import OilColumn, Pin, Result, Scenario
+from support_exudyn.machines.four_bar_shield import PINS
+from support_exudyn.model.loads.applied import AppliedForce, TableCourse
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.page.pieces import Sheet
+from user_forces.values.value import Vector2
 
+MACHINES = ("reference", "zf18000")
+CLEARANCES_MM = (0.0, 0.25, 0.5, 1.0, 1.5, 2.0)  # radial, in all five pins; 0: ideal
+ROOF_SHARES = (0.1, 0.3, 0.6)  # of the rated force
+FRICTION = 0.25  # in all pins, ideal or not
+PUSH = 0.3  # of the roof load, either way; underground 0.20 to 0.35 of it were measured (Barczak 1984)
+ROOF_IS_ON, BEGIN = 0.3, 0.5  # when all of the roof load is there, and when the push begins [s]
+QUARTER = 1.0  # of a loop [s]
+PERIOD = 2e-3  # between records [s]
+MIDDLE = ROOF_SHARES[1]
 ROOF_MOVES_MM = (5.0, 10.0, 20.0, 40.0)  # by how much a roof moves the canopy, either way
+
+
+@dataclass(frozen=True)
+class PushedSupport:
+    """A support that is pushed.
+
+    clearance_mm: of all pins. roof_share: roof load over the rated force. quarter: of a loop [s].
+    """
+
+    machine: str
+    clearance_mm: float
+    roof_share: float
+    friction: float
+    quarter: float = QUARTER
+
+    @property
+    def name(self) -> str:
+        """The name of the case."""
+        size = f"{self.clearance_mm:g} mm" if self.clearance_mm else "ideal"
+        pins = f"{size}, mu_d = {self.friction:g}"
+        slow = "" if self.quarter == QUARTER else ", half as fast"
+        return f"{self.machine}, roof {self.roof_share:g}, {pins}{slow}"
+
+    @property
+    def roof_load(self) -> float:
+        """Roof load [N]."""
+        leg = legs_data().of(self.machine).cylinder
+        assert leg.yield_valve is not None
+        return self.roof_share * len(PAIRS) * leg.bore_area * leg.yield_valve.opening_pressure
+
+    @property
+    def push(self) -> float:
+        """Largest horizontal force [N]."""
+        return PUSH * self.roof_load
+
+    @property
+    def place(self) -> Vector2:
+        """Where roof load and push act in the start posture [m]: on the canopy, between the legs' heads."""
+        start = support(self.machine).start()
+        front, rear = start.ends["front_head"], start.ends["rear_head"]
+        return 0.5 * (front[0] + rear[0]), 0.5 * (front[1] + rear[1])
+
+    def time(self, quarters: float) -> float:
+        """The time at which so many quarters of a loop are over [s]."""
+        return BEGIN + quarters * self.quarter
+
+    def scenario(self) -> Scenario:
+        """The run: roof load first, then the push from 0 to the front, to the rear and to the front."""
+        leg = legs_data().of(self.machine).cylinder
+        oil = OilColumn(bore_area=leg.bore_area, oil_length=leg.oil_length, bulk_modulus=leg.bulk_modulus)
+        size, pins = self.clearance_mm, dict[str, Pin]()
+        if size:
+            pins |= loose_pins(self.machine, size, self.friction, PINS)
+        elif self.friction:
+            pins |= tight_pins(self.machine, self.friction, PINS)
+        times = (0.0, *(self.time(n) for n in (0, 1, 3, 5)))
+        course = TableCourse(times=times, shares=(0.0, 0.0, 1.0, -1.0, 1.0), between="linear")
+        roof = AppliedForce(body="canopy", point=self.place, full_force=(0.0, -self.roof_load), end=ROOF_IS_ON)
+        push = AppliedForce(body="canopy", point=self.place, full_force=(self.push, 0.0), course=course)
+        return Scenario(
+            machine=support(self.machine),
+            actuators=dict.fromkeys(PAIRS, oil),
+            pins=pins,
+            loads={"roof": roof, "push": push},
+            duration=self.time(5),
+            record_period=PERIOD,
+            formulation="compiled",
+            accuracy="draft",
+        )
+
+
+def cases() -> list[PushedSupport]:
+    """All cases; without friction the ideal pins, and the reference support under the middle roof load."""
+    found = [
+        PushedSupport(machine, size, share, FRICTION)
+        for machine in MACHINES
+        for share in ROOF_SHARES
+        for size in CLEARANCES_MM
+    ]
+    smooth = [PushedSupport(MACHINES[0], size, ROOF_SHARES[1], 0.0) for size in CLEARANCES_MM if size]
+    tight = [PushedSupport(machine, 0.0, share, 0.0) for machine in MACHINES for share in ROOF_SHARES]
+    return [*found, *smooth, *tight, SLOW]
+
+
+FAST, SLOW = (PushedSupport("reference", 0.5, MIDDLE, FRICTION, QUARTER * n) for n in (1.0, 2.0))
+
+# --- measures ---
+
+OUTER = 0.7  # share of the push from which on a branch is fitted by a straight line
+SIDES = {"front": 1.0, "rear": -1.0}
+
+
+@dataclass(frozen=True)
+class Loop:
+    """A run of a support as force over displacement: from the first turn in front, to the rear and back.
+
+    case: that was run. run: its records.
+    """
+
+    case: PushedSupport
+    run: MeasuredRun
+
+    @cached_property
+    def inside(self) -> Mask:
+        """Mask of the loop's records."""
+        return between(self.run, self.case.time(1), self.case.time(5))
+
+    @cached_property
+    def force(self) -> Series:
+        """The push [N], forward."""
+        found: Series = self.run["push.force_x"][self.inside]
+        return found
+
+    @cached_property
+    def shift(self) -> Series:
+        """Displacement of the pushed point since the start [m], forward."""
+        angle = self.run["canopy.angle"]
+        x, y = self.run["canopy.x"], self.run["canopy.y"]
+        ox, oy = self.case.place[0] - x[0], self.case.place[1] - y[0]
+        place = x + ox * np.cos(angle) - oy * np.sin(angle)
+        found: Series = (place - self.case.place[0])[self.inside]
+        return found
+
+    @cached_property
+    def leg_force(self) -> Series:
+        """What the legs push the canopy forward with [N]."""
+        pairs = [self.run[f"{name}.force"] * np.cos(self.run[f"{name}.angle"]) for name in PAIRS]
+        found: Series = np.sum(pairs, axis=0)[self.inside]
+        return found
+
+    def outward(self, side: float) -> tuple[float, float]:
+        """Slope [N/m] of the branch on which the push grows to a side, and its displacement at no push [m].
+
+        side: 1 for the front, -1 for the rear.
+        """
+        rate = np.gradient(self.force)
+        chosen = (side * self.force > OUTER * self.case.push) & (side * rate > 0.0)
+        slope, place = np.polyfit(self.force[chosen], self.shift[chosen], 1)
+        return float(1.0 / slope), float(place)
+
+    @property
+    def slack(self) -> float:
+        """How far apart the outward branches of both sides begin [m]."""
+        return self.outward(1.0)[1] - self.outward(-1.0)[1]
+
+    @property
+    def beyond(self) -> float:
+        """Tangent stiffness beyond the slack [N/m]: that of both sides in series, twice."""
+        front, rear = (self.outward(side)[0] for side in SIDES.values())
+        return 2.0 / (1.0 / front + 1.0 / rear)
+
+    @property
+    def whole(self) -> float:
+        """Stiffness from turn to turn [N/m]."""
+        return float(np.ptp(self.force) / np.ptp(self.shift))
+
+    @property
+    def within(self) -> float:
+        """Stiffness of the legs alone [N/m]: what they push with, over the displacement; < 0: they lean."""
+        return -float(np.polyfit(self.shift, self.leg_force, 1)[0])
+
+    @property
+    def leg_share(self) -> float:
+        """Share of the push that the legs take, from turn to turn; negative: they push where it goes."""
+        ends = int(np.argmax(self.force)), int(np.argmin(self.force))
+        change = self.leg_force[ends[0]] - self.leg_force[ends[1]]
+        return float(-change / np.ptp(self.force))
+
+    @property
+    def loss(self) -> float:
+        """Energy that a loop turns into heat, over the rectangle around it."""
+        area = abs(float(np.trapezoid(self.force, self.shift)))
+        return area / float(np.ptp(self.force) * np.ptp(self.shift))
+
+
+MEASURES = {  # unit and scale from SI, by the name of a property
+    "slack": ("mm", 1e3),
+    "beyond": ("kN/mm", 1e-6),
+    "whole": ("kN/mm", 1e-6),
+    "within": ("kN/mm", 1e-6),
+    "leg_share": ("1", 1.0),
+    "loss": ("1", 1.0),
+}
+OF_IDEAL = ("whole", "leg_share")  # what a support without slack has
+
+
+Ran = Mapping[str, tuple[PushedSupport, Result]]
 Shares = Mapping[tuple[str, float], Mapping[str, float]]  # of the push, by machine and roof load
+
+
+def pin_shares(case: PushedSupport, run: Result) -> dict[str, float]:
+    """Change of the force of each pin over that of the push, from turn to turn, all pins ideal."""
+    front, rear = (int(np.argmin(np.abs(run.time - case.time(n)))) for n in (1, 3))
+    found = {}
+    for pin in PINS:
+        change = [run[f"pin.{pin}.force_{axis}"][front] - run[f"pin.{pin}.force_{axis}"][rear] for axis in "xy"]
+        found[pin] = float(np.hypot(*change) / (2.0 * case.push))
+    return found
+
+
+def kinematic_slack(case: PushedSupport, shares: Mapping[str, float]) -> float:
+    """Slack [m] by virtual work: each journal goes from one side of its bore to the other along its force.
+
+    s = 2 c sum f,   f: force of a pin over the push
+    """
+    return 2e-3 * case.clearance_mm * sum(shares.values())
+
+
+def numbers(ran: Ran) -> list[Number]:
+    """All numbers of the loops."""
+
+    def measure(case: PushedSupport, name: str, unit: str, scale: float) -> Number:
+        result = ran[case.name][1]
+        return measured(
+            name, case.name, unit, result, lambda run: scale * float(getattr(Loop(case, run), name))
+        )
+
+    return [
+        measure(case, name, *units)
+        for case, _ in ran.values()
+        for name, units in MEASURES.items()
+        if case.clearance_mm or name in OF_IDEAL
+    ]
+
+
+def participation(slack: float, displacement: float) -> float:
+    """Share of its stiffness that the linkage has left where the roof moves the canopy so far either way [m].
+
+    1 - s / (2 d),   at least 0
+    """
+    return max(0.0, 1.0 - slack / (2.0 * displacement))
+
+
+# --- tables ---
 
 
 def key_table(found: Found, shares: Shares) -> Sheet:
@@ -89,90 +324,78 @@ def factor(shares: Shares, machine: str) -> float:
 
 # --- figures ---
 
-Ran = Mapping[str, tuple[PushedSupport, Result]]
 DRAWN_MM = (0.0, 0.5, 1.0, 2.0)  # clearances whose loops are drawn
-MIDDLE = ROOF_SHARES[1]
 
 
 def loop_figure(ran: Ran) -> Figure:
     """Push over displacement of the canopy, a panel for each machine, under the middle roof load."""
-    drawing = Figure(figsize=style.size(170, 85))
-    panels = list(drawing.subplots(1, 2))
-    for axes, machine in zip(panels, MACHINES, strict=True):
+    drawing, panels = grid(85, 1, 2)
+    for axes, machine in zip(panels.flat, MACHINES, strict=True):
         for (colour, dashes), size in zip(reversed(style.CURVES[:4]), DRAWN_MM, strict=True):
-            case, run = ran[PushedSupport(machine, size, MIDDLE, FRICTION).name]
-            loop = Loop(case, run)
+            loop = Loop(*ran[PushedSupport(machine, size, MIDDLE, FRICTION).name])
             label = f"{size:g} mm" if size else "ideal pins"
             axes.plot(1e3 * loop.shift, 1e-3 * loop.force, color=colour, ls=dashes, label=label)
         axes.set(xlabel="displacement of the canopy [mm]", ylabel="horizontal force [kN]", title=machine)
     return finish(drawing, panels, 4)
 
 
-def slack_figure(found: Found, factors: Mapping[str, float]) -> Figure:
-    """Slack over clearance with what virtual work says (a), and stiffness from turn to turn (b)."""
-    drawing = Figure(figsize=style.size(170, 85))
-    slack, whole = drawing.subplots(1, 2)
+def slack_figure(found: Found, shares: Shares) -> Figure:
+    """Slack over clearance with the line of virtual work (a), and stiffness from turn to turn (b)."""
+    drawing, panels = grid(85, 1, 2)
+    slack, whole = panels.flat
     markers = dict(zip(ROOF_SHARES, ("o", "s", "^"), strict=True))
+    sizes, ends = CLEARANCES_MM[1:], np.array([0.0, CLEARANCES_MM[-1]])
     for machine, (colour, dashes) in zip(MACHINES, style.CURVES, strict=False):
-        ends = (0.0, CLEARANCES_MM[-1])
-        slack.plot(ends, [factors[machine] * one for one in ends], color=colour, ls=dashes, lw=0.8)
-        for share, marker in markers.items():
-            _draw(slack, found, "slack", machine, share, color=colour, marker=marker, ls="none")
-            _draw(whole, found, "whole", machine, share, color=colour, marker=marker, ls=dashes)
-    slack.set(xlabel="radial clearance of all pins [mm]", ylabel="slack of the canopy [mm]")
-    whole.set(
-        xlabel="radial clearance of all pins [mm]", ylabel="stiffness from turn to turn [kN/mm]", ylim=(0, None)
-    )
-    for machine, (colour, dashes) in zip(MACHINES, style.CURVES, strict=False):
+        slack.plot(ends, factor(shares, machine) * ends, color=colour, ls=dashes, lw=0.8)
         slack.plot([], [], color=colour, ls=dashes, label=machine)
+        for share, marker in markers.items():
+            for axes, measure, line in ((slack, "slack", "none"), (whole, "whole", dashes)):
+                names = [PushedSupport(machine, size, share, FRICTION).name for size in sizes]
+                values = [found[measure, name].value for name in names]
+                axes.plot(sizes, values, marker, color=colour, ls=line, mfc="none", ms=4.5, lw=0.8)
     for share, marker in markers.items():
         slack.plot([], [], marker, color="black", mfc="none", label=f"roof load {100 * share:g} % of rated")
-    return finish(drawing, [slack, whole], 3)
-
-
-def _draw(axes: Axes, found: Found, measure: str, machine: str, share: float, **look: Any) -> None:
-    sizes = CLEARANCES_MM[1:]
-    values = [found[measure, PushedSupport(machine, size, share, FRICTION).name].value for size in sizes]
-    axes.plot(sizes, values, mfc="none", ms=4.5, lw=0.8, **look)
+    for axes, label in ((slack, "slack of the canopy [mm]"), (whole, "stiffness from turn to turn [kN/mm]")):
+        axes.set(xlabel="radial clearance of all pins [mm]", ylabel=label)
+    whole.set_ylim(0, None)
+    return finish(drawing, panels, 3)
 
 
 # --- the study ---
 
 
+def _off(found: Found, case: PushedSupport, shares: Shares) -> float:
+    """How far the slack of a case is from that by virtual work, relatively."""
+    known = 1e3 * kinematic_slack(case, shares[case.machine, case.roof_share])
+    return abs(found["slack", case.name].value / known - 1.0)
+
+
 def work(chosen: Options) -> StudyOutcome:
     """All loops, their numbers, figures and tables."""
-    all_cases = {case.name: case for case in cases()}
-    runs = run_cases({name: case.scenario() for name, case in all_cases.items()}, chosen)
-    ran = {name: (case, runs[name]) for name, case in all_cases.items()}
+    runs = run_cases({case.name: case.scenario() for case in cases()}, chosen)
+    ran = {case.name: (case, runs[case.name]) for case in cases()}
     shares = {
         (machine, share): pin_shares(*ran[PushedSupport(machine, 0.0, share, 0.0).name])
         for machine in MACHINES
         for share in ROOF_SHARES
     }
-    reported = numbers(ran) + [
+    factors = [
         Number("slack_over_clearance", machine, factor(shares, machine), "1", 0.0) for machine in MACHINES
     ]
+    reported = numbers(ran) + factors
     found = by_case(reported)
-    slow, fast = PushedSupport(*plan.SLOW, quarter=2.0 * plan.QUARTER), PushedSupport(*plan.SLOW)
-    loose = [(name, case) for name, (case, _) in ran.items() if case.clearance_mm]
+    loaded = [case for case in cases() if case.clearance_mm and case.roof_share >= MIDDLE]
+
+    def number(name: str, machine: str, size: float, share: float = MIDDLE, mu: float = FRICTION) -> Number:
+        return found[name, PushedSupport(machine, size, share, mu).name]
+
     words = {
-        "plan": plan,
-        "found": found,
-        "of": lambda name, machine, size, share=MIDDLE, mu=FRICTION: found[
-            name, PushedSupport(machine, size, share, mu).name
-        ],
-        "slow": found["slack", slow.name],
-        "fast": found["slack", fast.name],
-        "factors": {machine: factor(shares, machine) for machine in MACHINES},
-        "off": max(
-            abs(
-                found["slack", name].value
-                / (1e3 * kinematic_slack(case, shares[case.machine, case.roof_share]))
-                - 1.0
-            )
-            for name, case in loose
-            if case.roof_share >= MIDDLE
-        ),
+        "plan": sys.modules[__name__],
+        "of": number,
+        "slow": found["slack", SLOW.name],
+        "fast": found["slack", FAST.name],
+        "factors": {one.case: one.value for one in factors},
+        "off": max(_off(found, case, shares) for case in loaded),
         "left": participation,
         "middle": MIDDLE,
     }
@@ -181,15 +404,9 @@ def work(chosen: Options) -> StudyOutcome:
         "participation": participation_table(found),
         "pins": pin_table(shares),
     }
-    drawings = {
-        "loops": loop_figure(ran),
-        "slack_and_stiffness": slack_figure(found, {one: factor(shares, one) for one in MACHINES}),
-    }
-    kept: dict[str, Result] = {
-        case.name: runs[case.name]
-        for case in (PushedSupport(MACHINES[0], size, MIDDLE, FRICTION) for size in (0.0, 1.0))
-    }
-    return StudyOutcome(reported, words, drawings, sheets, kept)
+    drawings = {"loops": loop_figure(ran), "slack_and_stiffness": slack_figure(found, shares)}
+    shown = (PushedSupport(MACHINES[0], size, MIDDLE, FRICTION).name for size in (0.0, 1.0))
+    return StudyOutcome(reported, words, drawings, sheets, {name: runs[name] for name in shown})
 
 
 study = Study("slack_stiffness", __doc__, work, seconds=400.0)

@@ -9,19 +9,8 @@ import numpy as np
 import pytest
 
 from studies.blow import run as study
-from studies.blow.blows import (
-    BEFORE,
-    BLOWS,
-    MACHINES,
-    MEASURES,
-    PINS,
-    PLACES,
-    STRIKE,
-    Blow,
-    Struck,
-    cases,
-    yield_valve,
-)
+from studies.blow.blows import BEFORE, BLOWS, MACHINES, PINS, PLACES, STRIKE, Blow, cases, yield_valve
+from studies.blow.run import MEASURES, Struck
 from studies.common.options import Options
 from studies.common.words import Chapter
 from support_exudyn import SolverSettings, simulate
@@ -52,7 +41,7 @@ def test_a_support_stands_still_until_it_is_struck(pins: str) -> None:
         pressure = run[f"{name}.pressure"][before]
         assert np.ptp(pressure) < 0.01 * pressure[0]
     assert 1e6 * 30 < run["front_column.pressure"][0] < yield_valve("reference").opening_pressure
-    struck = Struck(blow, run)
+    struck = Struck(run)
     pressure, flow = (MEASURES[name][2](struck) for name in ("pressure", "flow"))
     assert pressure > yield_valve("reference").opening_pressure  # the valve opens
     assert flow > 0.0

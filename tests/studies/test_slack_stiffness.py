@@ -12,9 +12,8 @@ import pytest
 from studies.common.options import Options
 from studies.common.support_legs import support
 from studies.common.words import Chapter
-from studies.slack_stiffness import loops as plan
 from studies.slack_stiffness import run as study
-from studies.slack_stiffness.loops import FRICTION, Loop, PushedSupport, kinematic_slack, pin_shares
+from studies.slack_stiffness.run import FRICTION, Loop, PushedSupport, kinematic_slack, pin_shares
 from support_exudyn import simulate
 
 CASE = PushedSupport("reference", 0.5, 0.3, FRICTION)
@@ -70,7 +69,7 @@ def test_the_slack_of_a_support_is_that_of_virtual_work() -> None:
 @pytest.mark.slow
 def test_pushed_faster_the_study_makes_a_chapter(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(
-        PushedSupport, "time", lambda case, quarters: plan.BEGIN + 0.1 * quarters * case.quarter
+        PushedSupport, "time", lambda case, quarters: study.BEGIN + 0.1 * quarters * case.quarter
     )
     chapter = study.study(Options(out=tmp_path, workers=2))
     assert isinstance(chapter, Chapter)

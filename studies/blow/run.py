@@ -1,0 +1,280 @@
+"""What does a block do that falls on a set support, and what does clearance do to it?
+
+The reference support and a ZF18000 at setting pressure under a roof load, struck at five places by blocks of
+0.5 to 5 t from 0.2 to 2 m, with ideal pins and with 1.5 mm in one and in all of them, with yield valves and
+without: pressures, flow, pin forces, tilt.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections import Counter
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from studies.blow import blows as plan
+from studies.blow.blows import (
+    BEFORE,
+    MACHINES,
+    PINS,
+    PLACES,
+    STRIKE,
+    Blow,
+    cases,
+    middle,
+    yield_valve,
+)
+from studies.common.numbers import Found, Number, by_case, cell, measured
+from studies.common.options import Options
+from studies.common.panels import finish, grid
+from studies.common.rise import DEGREES, MeasuredRun, Series, between
+from studies.common.runs import run_cases
+from studies.common.study import Study, StudyOutcome
+from studies.common.support_legs import PAIRS
+from studies.common.words import text_table
+from support_exudyn import Result
+from support_exudyn.machines.four_bar_shield import PINS as ALL_PINS
+from support_exudyn.postprocessing.figures import style
+from support_exudyn.postprocessing.page.pieces import Sheet
+
+OVERLOAD = 1.2  # of the yield force, up to which no part may fail (EN 1804-1, 4.3.2)
+
+# --- measures ---
+
+
+@dataclass(frozen=True)
+class Struck:
+    """The records of a run from just before the blow on."""
+
+    run: MeasuredRun
+
+    def of(self, channel: str) -> Series:
+        """A channel from just before the blow on, shape (n,)."""
+        inside = between(self.run, STRIKE - BEFORE, float(self.run.time[-1]))
+        values: Series = self.run[channel][inside]
+        return values
+
+    def most(self, channel: str, names: Iterable[str]) -> float:
+        """The largest value of a channel of any of some members."""
+        return max(float(self.of(channel.format(name)).max()) for name in names)
+
+    def tilt(self) -> float:
+        """Largest turn of the canopy from its start, with its sign [rad]; negative: its tip goes down."""
+        turn = self.of("canopy.angle") - self.of("canopy.angle")[0]
+        return float(turn[np.argmax(np.abs(turn))])
+
+    def rise(self) -> float:
+        """Largest rise of the pressure of any leg above that before the blow [Pa]."""
+        courses = [self.of(f"{name}.pressure") for name in PAIRS]
+        return max(float((one - one[0]).max()) for one in courses)
+
+    @property
+    def strongest_pin(self) -> str:
+        """The pin of the linkage whose force is the largest."""
+        return max(ALL_PINS, key=lambda pin: self.most("pin.{}.force", (pin,)))
+
+
+# unit, scale from SI, and value in SI, by name
+MEASURES: dict[str, tuple[str, float, Callable[[Struck], float]]] = {
+    "pressure": ("MPa", 1e-6, lambda struck: struck.most("{}.pressure", PAIRS)),
+    "rise": ("MPa", 1e-6, Struck.rise),
+    "least_pressure": ("MPa", 1e-6, lambda struck: min(float(struck.of(f"{n}.pressure").min()) for n in PAIRS)),
+    "flow": ("l/min", 6e4, lambda struck: struck.most("{}.yield_flow", PAIRS)),
+    "volume": ("l", 1e3, lambda struck: sum(float(struck.of(f"{name}.yielded")[-1]) for name in PAIRS)),
+    "pin_force": ("kN", 1e-3, lambda struck: struck.most("pin.{}.force", ALL_PINS)),
+    "tilt": ("deg", DEGREES, Struck.tilt),
+    "block_force": ("kN", 1e-3, lambda struck: struck.most("{}.force", ("block",))),
+}
+OF_VALVES = ("flow", "volume")
+
+
+def numbers(blows: Sequence[Blow], runs: Mapping[str, Result]) -> list[Number]:
+    """All numbers of the study."""
+    return [
+        measured(measure, blow.name, unit, runs[blow.name], lambda run, s=scale, get=get: s * get(Struck(run)))  # type: ignore[misc]
+        for blow in blows
+        for measure, (unit, scale, get) in MEASURES.items()
+        if blow.valve or measure not in OF_VALVES
+    ]
+
+
+def ratios(found: Found, measure: str, blows: Iterable[Blow], **change: Any) -> list[float]:
+    """A measure of blows over that of the same blows with other fields, of those alone that were run both."""
+    pairs = [(blow.name, replace(blow, **change).name) for blow in blows]
+    return [
+        found[measure, name].value / found[measure, other].value
+        for name, other in pairs
+        if name != other and (measure, name) in found and (measure, other) in found
+    ]
+
+
+def spread(values: Sequence[float]) -> tuple[float, ...]:
+    """Least, median and largest of some values."""
+    return min(values), float(np.median(values)), max(values)
+
+
+def overloaded(found: Found, blows: Iterable[Blow]) -> int:
+    """How many blows raise a leg beyond 1.2 times its yield pressure."""
+    limits = {machine: 1e-6 * OVERLOAD * yield_valve(machine).opening_pressure for machine in MACHINES}
+    return sum(found["pressure", one.name].value > limits[one.machine] for one in blows)
+
+
+# --- tables ---
+
+
+def key_table(found: Found, machine: str) -> Sheet:
+    """The middle blow on a machine with valves, a row a place."""
+    columns: dict[str, tuple[str, str, bool]] = {  # measure, pins, valve
+        "no valves, ideal [MPa]": ("pressure", "ideal", False),
+        "ideal [MPa]": ("pressure", "ideal", True),
+        "all loose [MPa]": ("pressure", "all", True),
+        "flow, ideal [l/min]": ("flow", "ideal", True),
+        "pin, ideal [kN]": ("pin_force", "ideal", True),
+        "pin, one loose [kN]": ("pin_force", "one", True),
+        "pin, all loose [kN]": ("pin_force", "all", True),
+        "tilt, all loose [deg]": ("tilt", "all", True),
+    }
+    rows = [
+        (
+            place,
+            *(cell(found[name, middle(machine, place, pins, valve=v)]) for name, pins, v in columns.values()),
+        )
+        for place in PLACES
+    ]
+    return text_table(("place", *columns), rows, wide=True)
+
+
+def clearance_table(found: Found, valved: Sequence[Blow]) -> Sheet:
+    """Peaks with clearance over those with ideal pins: least, median, largest, by place."""
+    columns = {
+        f"{title}, {pins} loose": (measure, pins)
+        for measure, title in (("rise", "rise of pressure"), ("pin_force", "pin force"))
+        for pins in ("one", "all")
+    }
+
+    def text(place: str, measure: str, pins: str) -> str:
+        chosen = [one for one in valved if (one.place, one.pins) == (place, pins)]
+        return ", ".join(f"{value:.2f}" for value in spread(ratios(found, measure, chosen, pins="ideal")))
+
+    rows = [(place, *(text(place, *column) for column in columns.values())) for place in PLACES]
+    return text_table(("place", *columns), rows)
+
+
+# --- figures ---
+
+LOOKS = dict(zip(PINS, (style.CURVES[3], style.CURVES[1], style.CURVES[0]), strict=True))
+TITLES = {"ideal": "ideal pins", "one": "1.5 mm in one pin", "all": "1.5 mm in all pins"}
+
+
+def peak_figure(found: Found, machines: Sequence[str]) -> Figure:
+    """Largest leg pressure and pin force of the middle blow, by place, a column for each machine."""
+    drawing, panels = grid(120, 2, len(machines), sharex=True)
+    labels = {"pressure": "largest leg pressure [MPa]", "pin_force": "largest pin force [kN]"}
+    for column, machine in enumerate(machines):
+        for axes, (measure, label) in zip(panels[:, column], labels.items(), strict=True):
+            for n, (pins, (colour, _)) in enumerate(LOOKS.items()):
+                for valve in (True, False):
+                    names = [middle(machine, place, pins, valve=valve) for place in PLACES]
+                    axes.plot(
+                        np.arange(len(PLACES)) + 0.22 * (n - 1), [found[measure, name].value for name in names],
+                        "o" if valve else "^", color=colour, ms=4.5, mfc=colour if valve else "none",
+                        label=f"{TITLES[pins]}{'' if valve else ', no valves'}",
+                    )  # fmt: skip
+            axes.set_ylabel(label)
+        limit = 1e-6 * yield_valve(machine).opening_pressure
+        panels[0, column].axhline(limit, color="#777777", lw=0.8)
+        panels[0, column].axhline(OVERLOAD * limit, color="#777777", lw=0.8, ls=(0, (4, 2)))
+        panels[0, column].set_title(machine)
+        for axes in panels[:, column]:
+            axes.set_ylim(0.0, 1.05 * axes.get_ylim()[1])  # of all that is drawn
+        panels[1, column].set_xticks(range(len(PLACES)), [place.replace(" ", "\n", 1) for place in PLACES])
+    drawing.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=3, fontsize=7)
+    return finish(drawing, panels)
+
+
+def course_figure(runs: Mapping[str, Result], shown: Blow) -> Figure:
+    """Courses of a blow: pressure of the front legs, flow, force of a pin, turn of the canopy."""
+    drawing, panels = grid(120, 2, 2, sharex=True)
+    courses = {  # channel and scale, by label
+        "front legs [MPa]": ("front_column.pressure", 1e-6),
+        "flow of a pair's valves [l/min]": ("front_column.yield_flow", 6e4),
+        "pin front_base [kN]": ("pin.front_base.force", 1e-3),
+        "canopy [deg]": ("canopy.angle", DEGREES),
+    }
+    bare = Struck(runs[replace(shown, pins="ideal", valve=False).name])
+    for axes, (label, (channel, scale)) in zip(panels.flat, courses.items(), strict=True):
+        for pins, (colour, dashes) in LOOKS.items():
+            struck = Struck(runs[replace(shown, pins=pins).name])
+            time = 1e3 * (struck.of("time") - STRIKE)
+            axes.plot(time, scale * struck.of(channel), color=colour, ls=dashes, label=TITLES[pins])
+        axes.set(ylabel=label, xlim=(0.0, 120.0))
+    time = 1e3 * (bare.of("time") - STRIKE)
+    pressure = 1e-6 * bare.of("front_column.pressure")
+    panels[0, 0].plot(time, pressure, color=style.THIRD, lw=0.8, label="ideal, no valves")
+    for axes in panels[1]:
+        axes.set_xlabel("time after the strike [ms]")
+    return finish(drawing, panels, 4)
+
+
+def clearance_figure(found: Found, valved: Sequence[Blow]) -> Figure:
+    """Peaks with clearance over those with ideal pins: rise of the leg pressure (a), pin force (b)."""
+    drawing, panels = grid(80, 1, 2)
+    titles = {"rise": "rise of the pressure", "pin_force": "pin force"}
+    for axes, (measure, title) in zip(panels.flat, titles.items(), strict=True):
+        for pins, mark in (("one", "s"), ("all", "o")):
+            chosen = [one for one in valved if one.pins == pins]
+            axes.plot(
+                [1e-3 * one.energy for one in chosen], ratios(found, measure, chosen, pins="ideal"), mark,
+                color=LOOKS[pins][0], mfc="none", ms=4.5, ls="none", label=TITLES[pins],
+            )  # fmt: skip
+        axes.axhline(1.0, color="#777777", lw=0.8)
+        axes.set(xscale="log", xlabel="energy of the block [kJ]", ylabel=f"{title}, over ideal pins")
+    return finish(drawing, panels, 2)
+
+
+# --- the study ---
+
+
+def work(chosen: Options) -> StudyOutcome:
+    """All blows, their numbers, figures and tables; with a number of runs the small form."""
+    blows = cases(small=chosen.runs is not None)
+    runs = run_cases({one.name: one.scenario() for one in blows}, chosen)
+    machines = list(dict.fromkeys(one.machine for one in blows))
+    reported = numbers(blows, runs)
+    found = by_case(reported)
+    valved = [one for one in blows if one.valve]
+    hard = max({(one.mass, one.height) for one in blows}, key=lambda one: one[0] * one[1])
+    shown = Blow(machines[0], "tip", *hard, "all", valve=True)
+    opened = [one for one in valved if found["flow", one.name].value > 0.0]
+    tail = Counter(Struck(runs[one.name]).strongest_pin for one in blows if one.place == "tail beam")
+    words = {
+        "plan": plan,
+        "run": sys.modules[__name__],
+        "found": found,
+        "blows": blows,
+        "valved": valved,
+        "bare": [one for one in blows if not one.valve],
+        "opened": opened,
+        "first": machines[0],
+        "loose": {pins: [one for one in blows if one.pins == pins] for pins in ("one", "all")},
+        "largest": max(valved, key=lambda one: found["flow", one.name].value).name,
+        "tail": tail.most_common(),
+        "shown": shown,
+    }
+    sheets = {"middle_blow": key_table(found, machines[0]), "clearance": clearance_table(found, valved)}
+    if len(machines) > 1:
+        sheets["middle_blow_zf18000"] = key_table(found, machines[1])
+    drawings = {
+        "peaks": peak_figure(found, machines),
+        "courses": course_figure(runs, shown),
+        "clearance_ratio": clearance_figure(found, valved),
+    }
+    kept = {name: runs[name] for name in (shown.name, replace(shown, pins="ideal").name)}
+    return StudyOutcome(reported, words, drawings, sheets, kept)
+
+
+study = Study("blow", __doc__, work, seconds=340.0)
