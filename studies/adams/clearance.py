@@ -48,67 +48,74 @@ def check_law(name: str, pin: ClearancePin) -> None:
         )
 
 
+# variables of a pin in their order; braces stand for earlier ones, for markers and for numbers
+CONTACT = {
+    "x": "DX({pair})",
+    "y": "DY({pair})",
+    "vx": "VX({pair})",
+    "vy": "VY({pair})",
+    "apart": "MAX(SQRT({x}**2+{y}**2),{smallest})",
+    "nx": "{x}/{apart}",
+    "ny": "{y}/{apart}",
+    "depth": "{apart}-{clearance}",
+    "rate": "{nx}*{vx}+{ny}*{vy}",
+    "journal_arm": "{journal_radius}-0.5*{depth}",
+    "bore_arm": "{bore_radius}+0.5*{depth}",
+    "turning": "WZ({journal})*{journal_arm}-WZ({bore})*{bore_arm}",
+    "slip": "{nx}*{vy}-{ny}*{vx}+{turning}",
+    "w": "MAX({memory},{rest_velocity})",
+    "elastic": "{stiffness}*MAX({depth},0)**{exponent}",
+    "damping": "1+{damping_factor}*{rate}/{w}",
+    "normal": "MAX({elastic}*{damping},0)",
+}
+RUBBING = {
+    "c_d": "MIN(1,MAX(0,(ABS({slip})-{static_speed})/{width}))",
+    "friction": "-{sliding_coefficient}*{c_d}*{normal}*SIGN(1,{slip})",
+}
+FORCES = {"force_x": "-{normal}*{nx}-{friction}*{ny}", "force_y": "-{normal}*{ny}+{friction}*{nx}"}
+FOLLOWS = "IF({depth}:({rate}-{memory})/{following},0,0)"
+
+
 def write_clearance(out: Statements, name: str, pin: ClearancePin, at: PinMarkers) -> dict[str, str]:
     """Write variables, memory and force of a clearance pin.
 
     Returns its channels, without the pin's name, each with the expression that is its value.
     """
-    bearing, normal, axes = pin.contact.bearing, pin.contact.normal, at.axes
+    bearing, normal, friction = pin.contact.bearing, pin.contact.normal, pin.contact.friction
     assert isinstance(normal, LankaraniNikravesh)
-
-    def variable(what: str, expression: str) -> str:
-        return f"VARVAL({out.add('VARIABLE', f'{name}_{what}', f'FUNCTION = {expression}')})"
-
-    pair = f"{at.journal},{at.bore},{axes}"
-    x, y = variable("x", f"DX({pair})"), variable("y", f"DY({pair})")
-    vx, vy = variable("vx", f"VX({pair})"), variable("vy", f"VY({pair})")
-    apart = variable("apart", f"MAX(SQRT({x}**2+{y}**2),{number(SMALLEST)})")
-    nx, ny = variable("nx", f"{x}/{apart}"), variable("ny", f"{y}/{apart}")
-    depth = variable("depth", f"{apart}-{number(bearing.clearance)}")
-    rate = variable("rate", f"{nx}*{vx}+{ny}*{vy}")
-    journal_arm = variable("journal_arm", f"{number(bearing.journal_radius)}-0.5*{depth}")
-    bore_arm = variable("bore_arm", f"{number(bearing.bore_radius)}+0.5*{depth}")
-    turning = variable("turning", f"WZ({at.journal})*{journal_arm}-WZ({at.bore})*{bore_arm}")
-    slip = variable("slip", f"{nx}*{vy}-{ny}*{vx}+{turning}")
-    memory = _impact_velocity(out, name, depth, rate)
-    speed = variable("w", f"MAX({memory},{number(normal.rest_velocity)})")
-    elastic = variable("elastic", f"{number(normal.stiffness)}*MAX({depth},0)**{number(normal.exponent)}")
-    damping = variable("damping", f"1+{number(normal.damping_factor)}*{rate}/{speed}")
-    force = variable("normal", f"MAX({elastic}*{damping},0)")
-    friction = _friction(out, name, pin, slip, force)
-    force_x = variable("force_x", f"-{force}*{nx}-{friction}*{ny}")
-    force_y = variable("force_y", f"-{force}*{ny}+{friction}*{nx}")
-    on_journal = functions(FX=force_x, FY=force_y, FZ="0", TX="0", TY="0", TZ=f"{journal_arm}*{friction}")
-    places = (f"I = {at.journal}", f"JFLOAT = {at.floating}", f"RM = {axes}")
+    values = {
+        "smallest": SMALLEST, "following": FOLLOWING, "clearance": bearing.clearance,
+        "journal_radius": bearing.journal_radius, "bore_radius": bearing.bore_radius,
+        "rest_velocity": normal.rest_velocity, "stiffness": normal.stiffness, "exponent": normal.exponent,
+        "damping_factor": normal.damping_factor,
+    }  # fmt: skip
+    rubbing = {"friction": "0"}
+    if isinstance(friction, Ambrosio):
+        rubbing = RUBBING
+        values |= {
+            "static_speed": friction.static_speed,
+            "width": friction.dynamic_speed - friction.static_speed,
+            "sliding_coefficient": friction.sliding_coefficient,
+        }
+    names = {key: number(value) for key, value in values.items()}
+    names |= {"pair": f"{at.journal},{at.bore},{at.axes}", "journal": str(at.journal), "bore": str(at.bore)}
+    names["memory"] = f"DIF({out.following('DIFF')})"
+    for what, formula in (CONTACT | rubbing | FORCES).items():
+        variable = out.add("VARIABLE", f"{name}_{what}", f"FUNCTION = {formula.format(**names)}")
+        names[what] = f"VARVAL({variable})"
+        if what == "slip":  # the first variable that follows needs the memory
+            out.add("DIFF", f"{name}_impact_velocity", "IC = 0", f"FUNCTION = {FOLLOWS.format(**names)}")
+    moment = f"{names['journal_arm']}*{names['friction']}"
+    on_journal = functions(FX=names["force_x"], FY=names["force_y"], FZ="0", TX="0", TY="0", TZ=moment)
+    places = (f"I = {at.journal}", f"JFLOAT = {at.floating}", f"RM = {at.axes}")
     out.add("GFORCE", name, *places, *on_journal)
     sign = "" if pin.bore == "first" else "-"  # of the first body on the second
     return {
-        "force_x": f"{sign}{force_x}",
-        "force_y": f"{sign}{force_y}",
-        "normal_force": force,
-        "friction_force": friction,
-        "depth": depth,
-        "eccentricity_x": x,
-        "eccentricity_y": y,
+        "force_x": f"{sign}{names['force_x']}",
+        "force_y": f"{sign}{names['force_y']}",
+        "normal_force": names["normal"],
+        "friction_force": names["friction"],
+        "depth": names["depth"],
+        "eccentricity_x": names["x"],
+        "eccentricity_y": names["y"],
     }
-
-
-def _impact_velocity(out: Statements, name: str, depth: str, rate: str) -> str:
-    """The memory of the rate at the onset."""
-    number_of_next = out.following("DIFF")
-    own = f"DIF({number_of_next})"
-    follows = f"({rate}-{own})/{number(FOLLOWING)}"
-    out.add("DIFF", f"{name}_impact_velocity", "IC = 0", f"FUNCTION = IF({depth}:{follows},0,0)")
-    return own
-
-
-def _friction(out: Statements, name: str, pin: ClearancePin, slip: str, force: str) -> str:
-    """The friction force along t on the journal."""
-    law = pin.contact.friction
-    if not isinstance(law, Ambrosio):
-        return f"VARVAL({out.add('VARIABLE', f'{name}_friction', 'FUNCTION = 0')})"
-    width = number(law.dynamic_speed - law.static_speed)
-    ramp = f"(ABS({slip})-{number(law.static_speed)})/{width}"
-    share = f"VARVAL({out.add('VARIABLE', f'{name}_c_d', f'FUNCTION = MIN(1,MAX(0,{ramp}))')})"
-    opposed = f"-{number(law.sliding_coefficient)}*{share}*{force}*SIGN(1,{slip})"
-    return f"VARVAL({out.add('VARIABLE', f'{name}_friction', f'FUNCTION = {opposed}')})"

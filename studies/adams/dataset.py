@@ -147,12 +147,14 @@ class _Writing:
             self.out.add("JOINT", f"{loose}_plane", "PLANAR", f"I = {at}", f"J = {on}")
             reached.add(loose)
 
+    def pair(self, name: str, first: tuple[str, Vector2], second: tuple[str, Vector2]) -> tuple[int, int]:
+        """Markers of two bodies at their points, called NAME_i and NAME_j; written in this order."""
+        return self.marker(*first, f"{name}_i"), self.marker(*second, f"{name}_j")
+
     def pin(self, name: str, pin: PinPlace, closes: bool) -> None:
         kind, form = ("JPRIM", "INLINE") if closes else ("JOINT", "REVOLUTE")
-        first, second = (
-            self.marker(body, point, f"{name}_{end}")
-            for end, body, point in (("j", pin.first, pin.first_point), ("i", pin.second, pin.second_point))
-        )
+        first = self.marker(pin.first, pin.first_point, f"{name}_j")
+        second = self.marker(pin.second, pin.second_point, f"{name}_i")
         joint = self.out.add(kind, name, form, f"I = {second}", f"J = {first}")
         force = {f"force_{axis}": f"{kind}({joint},0,{n},0)" for n, axis in ((2, "x"), (3, "y"))}
         self.requests.ask(f"pin.{name}", **force)
@@ -163,19 +165,14 @@ class _Writing:
         cylinder, rod = f"{name}_cylinder", f"{name}_rod"
         self.part(cylinder, foot, LIGHT, LIGHT)
         self.part(rod, head, LIGHT, LIGHT)
-        feet = [
-            self.marker(body, foot, f"{name}_foot_{end}")
-            for end, body in (("i", cylinder), ("j", actuator.foot))
-        ]
+        feet = self.pair(f"{name}_foot", (cylinder, foot), (actuator.foot, foot))
         self.out.add("JOINT", f"{name}_foot", "REVOLUTE", f"I = {feet[0]}", f"J = {feet[1]}")
         slides = [
             self.marker(body, head, f"{name}_slide_{end}", along) for end, body in (("i", rod), ("j", cylinder))
         ]
         joint = self.out.add("JOINT", name, "TRANSLATIONAL", f"I = {slides[0]}", f"J = {slides[1]}")
         motion = self.out.add("MOTION", name, f"JOINT = {joint}", f"FUNCTION = {_extension(drive)}")
-        heads = [
-            self.marker(body, head, f"{name}_head_{end}") for end, body in (("i", actuator.head), ("j", rod))
-        ]
+        heads = self.pair(f"{name}_head", (actuator.head, head), (rod, head))
         self.out.add("JPRIM", f"{name}_head", "INLINE", f"I = {heads[0]}", f"J = {heads[1]}")
         self.requests.ask(name, length=f"DM({heads[0]},{feet[1]})", force=f"MOTION({motion},0,4,{slides[0]})")
 
@@ -192,11 +189,8 @@ class _Writing:
 
     def analysis(self) -> None:
         """Weight, integrator and output."""
-        gravity = ("IGRAV", "JGRAV", "KGRAV")
-        values = (*self.scenario.gravity, 0.0)
-        self.out.plain(
-            "ACCGRAV", *(f"{name} = {number(one)}" for name, one in zip(gravity, values, strict=True))
-        )
+        x, y = map(number, self.scenario.gravity)
+        self.out.plain("ACCGRAV", f"IGRAV = {x}", f"JGRAV = {y}", f"KGRAV = {number(0.0)}")
         self.out.plain("INTEGRATOR", "GSTIFF", f"ERROR = {number(ERROR)}", f"HMAX = {number(LONGEST_STEP)}")
         self.out.plain("OUTPUT", "REQSAVE")
         self.out.plain("RESULTS", "FORMATTED, XRF")

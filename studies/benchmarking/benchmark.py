@@ -20,6 +20,7 @@ from pathlib import Path
 
 from studies.benchmarking import trade, yardstick
 from studies.benchmarking.peers.on_exudyn import Evaluator, run_connector
+from studies.benchmarking.peers.plain_support import PIN
 from studies.benchmarking.trade import COMPILED, ENGINE, OURS_COMPILED, OURS_ENGINE, WORK, TradePoint
 from studies.common import paper_machine
 from studies.common.study import print_table, work_in_folder
@@ -146,7 +147,7 @@ def _beside_c(rise: Scenario) -> Row:
         except yardstick.YardstickError as error:
             return Row(name, WORK, runs, None, note=str(error).splitlines()[0])
         by_hand = partial(yardstick.run_yardstick, rise, C_TOLERANCE, program=program)
-        force_alone = replace(rise, channels=(f"pin.{yardstick.PIN}.force",))  # all that the program writes
+        force_alone = replace(rise, channels=(f"pin.{PIN}.force",))  # all that the program writes
         ours = _simulated(force_alone, COMPILED, tolerance=OURS_TOLERANCE)
         return beside(name, WORK, runs, ours, f"C, tolerance {C_TOLERANCE:.0e}", lambda: by_hand().seconds)
 

@@ -13,16 +13,15 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import NamedTuple
 
-from studies.benchmarking.peers.plain_support import contact_numbers
+from studies.benchmarking.peers.plain_support import contact_numbers, plain_support
 from support_exudyn import CubicStep, HydraulicSupport, Scenario
 from support_exudyn.model.linkage import lumped
 from support_exudyn.model.plane_geometry import minus, parts_of, side
-from user_forces import Ambrosio, Frictionless, JournalContact
+from user_forces import Ambrosio, JournalContact
 from user_forces.contact_state import Onset
 from user_forces.values.value import InputError
 
 SOURCE = Path(__file__).with_name("yardstick.c")
-PIN = "rear_base"
 
 
 class YardstickError(RuntimeError):
@@ -60,8 +59,7 @@ def run_yardstick(scenario: Scenario, tolerance: float, *, program: Path, runs: 
     """Run the yardstick.
 
     Arguments:
-        scenario: HydraulicSupport, rear-link pin with clearance, its bore in the base, CubicStep, start
-            "concentric", LankaraniNikravesh with exponent 1.5, no friction or Ambrosio's.
+        scenario: see `plain_support`, with a CubicStep.
         tolerance: largest error of a step as a share of the clearance.
         program: from `compiled`.
         runs: of which the fastest is reported.
@@ -80,25 +78,19 @@ def run_yardstick(scenario: Scenario, tolerance: float, *, program: Path, runs: 
 
 
 def _numbers(scenario: Scenario, tolerance: float) -> list[float]:
+    contact = plain_support(scenario).contact  # refuses all other scenes
     machine, drive = scenario.machine, scenario.drive
     if not isinstance(machine, HydraulicSupport) or not isinstance(drive, CubicStep):
-        raise InputError("the yardstick takes a HydraulicSupport and a CubicStep")
-    if scenario.actuators or scenario.drives or scenario.own_bodies or scenario.friction_pins:
-        raise InputError("the yardstick takes rigid columns and one drive")
-    if tuple(scenario.clearance_pins) != (PIN,) or scenario.start != "concentric":
-        raise InputError(f"the yardstick takes one clearance pin, {PIN}, and start = 'concentric'")
-    pin = scenario.clearance_pins[PIN]
-    if pin.bore != "first":
-        raise InputError(f"pins.{PIN}.bore = {pin.bore!r}: allowed: 'first'")
+        raise InputError("drive: allowed here: CubicStep")
     start = machine.start()
     lever = math.dist(start.rear_shield, machine.rear_base)
-    clearance = pin.contact.bearing.clearance
+    clearance = contact.bearing.clearance
     fall = math.sqrt(math.hypot(*scenario.gravity) * clearance)
     return [
         *_geometry(machine),
         *_masses(machine),
         *scenario.gravity,
-        *_contact(pin.contact),
+        *_contact(contact),
         drive.stroke,
         drive.start,
         drive.end,
@@ -154,7 +146,5 @@ def _contact(contact: JournalContact) -> list[float]:
     if isinstance(friction, Ambrosio):
         static = friction.static_speed
         tangential = [friction.sliding_coefficient, static, friction.dynamic_speed - static]
-    elif not isinstance(friction, Frictionless):
-        raise InputError("friction: allowed here: Frictionless, Ambrosio")
     bearing = contact.bearing
     return [bearing.clearance, bearing.bore_radius, *contact_numbers(contact), *tangential]

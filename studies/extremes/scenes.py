@@ -9,8 +9,17 @@ import numpy as np
 
 from studies.extremes import legs, supports
 from studies.extremes.drawn import SPANS, Draw, Point, drawn_point
-from studies.extremes.supports import ACCURACIES, fallen, limited, settings, stroke_of, times
-from support_exudyn import ClearancePin, Held, Scenario, Steady, ravn_slider_crank
+from studies.extremes.supports import ACCURACIES, fallen, limited, settings, times, to_accuracy
+from support_exudyn import (
+    ClearancePin,
+    CubicStep,
+    Held,
+    Reciprocating,
+    Scenario,
+    Steady,
+    cylinders_and_rods,
+    ravn_slider_crank,
+)
 from support_exudyn.machines.free_impact import ImpactStand
 from support_exudyn.scenario.scenario_data import Accuracy
 
@@ -126,11 +135,19 @@ RANDOM: dict[str, tuple[int, Callable[[Point, int, Draw], Scenario]]] = {
     "posture": (70, supports.of_posture),
     "dead centre": (30, past_dead_centre),
     "all pins": (30, supports.everywhere),
-    "no gravity": (30, supports.weightless),
+    "no gravity": (  # columns that go up and down: the journal flies from side to side
+        30,
+        lambda point, i, of: replace(
+            fallen(point), gravity=(0.0, 0.0), drive=Reciprocating(stroke=0.01, period=0.1)
+        ),
+    ),
     "hang-up": (30, hung_up),
     "roof": (40, supports.under_roof),
-    "columns": (20, supports.heavy_columns),
-    "space": (16, supports.in_space),
+    "columns": (20, lambda point, i, of: replace(fallen(point), actuators=cylinders_and_rods())),
+    "space": (
+        16,
+        lambda point, i, of: replace(fallen(point), dimensions=3, duration=times(point, 0.05)["duration"]),
+    ),
     HYDRAULICS: (1400, legs.on_legs),
 }
 ALL = sum(part for part, _ in RANDOM.values())
@@ -183,7 +200,9 @@ def mapped() -> Iterator[Case]:
     for clearance in _axis("clearance_m", size):
         for time in np.geomspace(0.05, 100.0, size).tolist():
             values = {"clearance_m": clearance, "speed_m_s": STROKE / time}
-            make = partial(stroke_of, Point(clearance_m=clearance), time, STROKE, "standard", RECORDS)
+            drive = CubicStep(stroke=STROKE, start=0.1 * time, end=1.1 * time)
+            point = Point(clearance_m=clearance)
+            make = partial(to_accuracy, point, drive, 1.2 * time, 1.2 * time / RECORDS, "standard")
             yield _case(CLEARANCE_SPEED, values, make)
     size = GRIDS[FRICTION_STEP]
     for static in np.geomspace(1e-7, 5e-2, size).tolist():

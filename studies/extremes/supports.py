@@ -19,11 +19,9 @@ from support_exudyn import (
     HydraulicSupport,
     IdealPin,
     Machine,
-    Reciprocating,
     Roof,
     Scenario,
     SolverSettings,
-    cylinders_and_rods,
     reference_support,
     simulate,
 )
@@ -116,12 +114,6 @@ def with_solver(point: Point, i: int, of: Draw) -> Scenario:
     return replace(fallen(point), solver=solver, actuators=paper_machine.oil_columns() if i % 2 else {})
 
 
-def weightless(point: Point, i: int, of: Draw) -> Scenario:
-    """Columns that go up and down without gravity: the journal flies from side to side."""
-    drive = Reciprocating(stroke=0.01, period=0.1)
-    return replace(fallen(point), gravity=(0.0, 0.0), drive=drive)
-
-
 def started(point: Point, i: int, of: Draw) -> Scenario:
     """The journal in the middle, in contact, indented by 0.1 mm, or settled."""
     start, share = [*STARTS.items()][i % len(STARTS)]
@@ -201,37 +193,22 @@ def leg_heads(machine: Machine) -> list[float]:
     return [actuator.head_point[0] for actuator in actuators if actuator.head == "canopy"]
 
 
-def in_space(point: Point, i: int, of: Draw) -> Scenario:
-    """The fall, with both sides of the machine."""
-    return replace(fallen(point), dimensions=3, duration=times(point, 0.05)["duration"], solver=settings(point))
-
-
-def heavy_columns(point: Point, i: int, of: Draw) -> Scenario:
-    """The fall with columns of two bodies each."""
-    return replace(fallen(point), actuators=cylinders_and_rods())
-
-
 # --- to an accuracy ---
 
 
 def to_accuracy(point: Point, drive: Drive, duration: float, period: float, accuracy: Accuracy) -> Scenario:
     """The support with a drive, to an accuracy; duration and time between records [s]."""
-    scene = Scenario(
-        machine=reference_support(),
-        pins={PIN: point.pin},
-        drive=drive,
-        duration=duration,
-        record_period=period,
-        accuracy=accuracy,
-        formulation="auto",
+    return limited(
+        Scenario(
+            machine=reference_support(),
+            pins={PIN: point.pin},
+            drive=drive,
+            duration=duration,
+            record_period=period,
+            accuracy=accuracy,
+            formulation="auto",
+        )
     )
-    return limited(scene)
-
-
-def stroke_of(point: Point, time: float, stroke: float, accuracy: Accuracy, records: int) -> Scenario:
-    """The support raised or lowered within a time [s]."""
-    drive = CubicStep(stroke=stroke, start=0.1 * time, end=1.1 * time)
-    return to_accuracy(point, drive, 1.2 * time, 1.2 * time / records, accuracy)
 
 
 def boxed(point: Point, accuracy: Accuracy, drive: Drive) -> Scenario:

@@ -12,7 +12,6 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from matplotlib.figure import Figure
 
-from studies.common.numbers import Number
 from studies.common.options import Options
 from studies.common.panels import finish
 from studies.common.runs import run_cases
@@ -24,26 +23,6 @@ from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.page.pieces import Sheet
 
 FINE = ", half the steps"
-VELENJE = OutsideCase(
-    "velenje",
-    "Four-bar of Velenje's support: path of the canopy's hinge over its rise",
-    "circles that meet, from the published lengths",
-    "Oblak, Harl, Butinar, Struct. Multidisc. Optim. 20 (2000) 76-82",
-    "velenje_shield",
-    1e-6,
-    True,
-    (),
-)
-NEWTON = OutsideCase(
-    "newton_limit",
-    "Slider-crank with clearance in its guide: from smooth contact to Newton's impacts",
-    "minimal coordinates, 80-bit, Newton's impacts",
-    "independent solution of the scene of Flores, Leine and Glocker 2010",
-    "slider_crank",
-    0.1,
-    True,
-    (),
-)
 # angle of the crank [rad] at a time [s] by Newton's impacts, and by smooth contact with K = 1e9; of the source
 LIMIT, SMOOTH, AT = 1.61452672389, 1.61445149524, 0.02
 STIFFER = {1e9: "slider_crank", 1e11: "stiffer_slider_crank", 1e13: "stiffest_slider_crank"}
@@ -57,32 +36,37 @@ def crank_at(run: Result) -> float:
 
 def newton_rows(runs: Mapping[str, Result]) -> list[ComparedNumber]:
     """The distance from Newton's impacts at every stiffness, and the order between two of them."""
+    case = cases()["newton_limit"]
     found, distances = [], []
     for stiffness, scene in STIFFER.items():
         fine, coarse = crank_at(runs[scene + FINE]), crank_at(runs[scene])
         distances.append(abs(fine - LIMIT))
         allowed = 2.0 * abs(SMOOTH - LIMIT) * (stiffness / 1e9) ** -ORDER
         what = f"crank.angle at {AT:g} s, K = {stiffness:.0e} N/m^1.5"
-        found.append(ComparedNumber(NEWTON.name, what, "rad", LIMIT, 5e-12, fine, abs(fine - coarse), allowed))
+        found.append(ComparedNumber(case.name, what, "rad", LIMIT, 5e-12, fine, abs(fine - coarse), allowed))
     for n, (near, far) in enumerate(zip(distances[1:], distances, strict=False)):
         first, second = list(STIFFER)[n : n + 2]
         order = math.log(far / near) / math.log(second / first)
         error = found[n + 1].our_error / near / math.log(second / first)
         what = f"order between K = {first:.0e} and {second:.0e}"
-        found.append(ComparedNumber(NEWTON.name, what, "1", ORDER, 0.05, order, error, NEWTON.allowed))
+        found.append(ComparedNumber(case.name, what, "1", ORDER, 0.05, order, error, case.allowed))
     return found
 
 
-def velenje_row(fine: Result, coarse: Result) -> ComparedNumber:
+def velenje_rows(runs: Mapping[str, Result]) -> list[ComparedNumber]:
     """The largest distance of the hinge from where circles have it."""
+    case = cases()["velenje"]
 
     def apart(run: Result) -> float:
         known = hinge(run["front_link.angle"])
         return float(np.hypot(run["hinge.x"] - known[0], run["hinge.y"] - known[1]).max())
 
-    ours = apart(fine)
+    fine, coarse = apart(runs[case.scene + FINE]), apart(runs[case.scene])
     what = "largest distance of the hinge's path"
-    return ComparedNumber("velenje", what, "m", 0.0, 5e-6, ours, abs(ours - apart(coarse)), VELENJE.allowed)
+    return [ComparedNumber(case.name, what, "m", 0.0, 5e-6, fine, abs(fine - coarse), case.allowed)]
+
+
+COMPUTED = {"newton_limit": newton_rows, "velenje": velenje_rows}  # numbers that no table has
 
 
 def case_table(found: Sequence[tuple[OutsideCase, Sequence[ComparedNumber]]]) -> Sheet:
@@ -138,13 +122,13 @@ def work(chosen: Options) -> StudyOutcome:
     order = sorted(scenes, key=lambda name: name != "loose_crank_rocker")
     wanted = {name + FINE: scenes[name].refined() for name in order} | {name: scenes[name] for name in order}
     runs = run_cases(wanted, chosen)
-    found: list[tuple[OutsideCase, list[ComparedNumber]]] = [
-        (case, compared(case, runs[case.scene + FINE], runs[case.scene])) for case in cases()
-    ]
-    found.append((NEWTON, newton_rows(runs)))
-    found.append((VELENJE, [velenje_row(runs["velenje_shield" + FINE], runs["velenje_shield"])]))
+    found = []
+    for name, case in cases().items():
+        if name in COMPUTED:
+            found.append((case, COMPUTED[name](runs)))
+        else:
+            found.append((case, compared(case, runs[case.scene + FINE], runs[case.scene])))
     rows = [one for _, numbers in found for one in numbers]
-    numbers: list[Number] = [one.number() for one in rows]
     words = {
         "run": sys.modules[__name__],
         "cases": found,
@@ -153,7 +137,7 @@ def work(chosen: Options) -> StudyOutcome:
         "orders": [one.ours for one in rows if one.what.startswith("order")],
     }
     tables = {"table_cases": case_table(found)}
-    return StudyOutcome(numbers, words, {"outside": figure(found, runs)}, tables)
+    return StudyOutcome([one.number() for one in rows], words, {"outside": figure(found, runs)}, tables)
 
 
 study = Study("outside", __doc__, work, seconds=100.0)

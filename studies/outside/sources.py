@@ -41,8 +41,8 @@ class OutsideCase:
     source: str
     scene: str
     allowed: float
-    absolute: bool
     numbers: Sequence[Mapping[str, Any]]
+    absolute: bool = False
 
 
 @dataclass(frozen=True)
@@ -85,23 +85,15 @@ class ComparedNumber:
 COMMON = ("channel", "unit", "impact", "what", "largest", "error")  # of a case, which hold for all its numbers
 
 
-def cases() -> list[OutsideCase]:
-    """All cases, in their order."""
-    found = []
+def cases() -> dict[str, OutsideCase]:
+    """All cases by name, in their order."""
+    found = {}
     for name, table in tables("studies.outside", "cases.toml", Decimal).items():
-        common = {key: table[key] for key in COMMON if key in table}
-        found.append(
-            OutsideCase(
-                name,
-                table["title"],
-                table["program"],
-                table["source"],
-                table["scene"],
-                float(table["allowed"]),
-                table.get("absolute", False),
-                [common | number for number in table["numbers"]],
-            )
-        )
+        fields = dict(table)
+        common = {key: fields.pop(key) for key in COMMON if key in fields}
+        numbers = [common | number for number in fields.pop("numbers", ())]
+        allowed = float(fields.pop("allowed"))
+        found[name] = OutsideCase(name=name, allowed=allowed, numbers=numbers, **fields)
     return found
 
 

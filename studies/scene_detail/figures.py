@@ -11,7 +11,7 @@ from matplotlib.ticker import LogLocator
 
 from studies.common import rise
 from studies.common.numbers import rounded
-from studies.common.panels import letters
+from studies.common.panels import finish, grid, letters
 from studies.common.words import text_table
 from studies.scene_detail.measures import (
     FROM_REFERENCE,
@@ -59,6 +59,7 @@ COST = "cost ratio"
 MORE, LESS, OPEN = style.CONTACT, style.WITH_CLEARANCE, "#777777"
 PURPLE = "#CC79A7"
 DASHES = (0, (4, 2))
+SIDES = {"left": style.WITH_CLEARANCE, "right": style.SMOOTH}
 WIDTHS = {"left": 1.8, "right": 0.8}  # the thinner curve is drawn on top
 ROW_MM = 4.3  # height of an element's row
 
@@ -134,79 +135,69 @@ def _signs() -> list[Line2D]:
 
 
 def unequal_figure(runs: Mapping[str, Result]) -> Figure:
-    """Six panels."""
-    drawing = Figure(figsize=style.size(180, 125))
-    panels = list(drawing.subplots(2, 3).flat)
+    """Turns, indentation, column forces and moment with columns driven apart, and paths of the journal."""
+    drawing, panels = grid(125, 2, 3, width_mm=180)
+    turns, depths, forces, moments, *paths = panels.flat
     with_clearance, ideal, equal = (runs[name] for name in (UNEQUAL_FULLEST, UNEQUAL_IDEAL, EQUAL))
-    sides = {"left": style.WITH_CLEARANCE, "right": style.SMOOTH}
-    turns = {"canopy.roll": style.THIRD, "canopy.yaw": PURPLE}
-    _lines(panels[0], with_clearance, ideal, turns, rise.DEGREES)
-    _at_end(panels[0], with_clearance, turns, rise.DEGREES)
-    for side, colour in sides.items():
+    time = with_clearance.time
+    of_turns = {"canopy.roll": ("roll", style.THIRD), "canopy.yaw": ("yaw", PURPLE)}
+    of_forces = {f"front_column_{side}.force": (side, colour) for side, colour in SIDES.items()}
+    _courses(turns, with_clearance, ideal, of_turns, rise.DEGREES)
+    _courses(forces, with_clearance, ideal, of_forces, 1e-3)
+    for side, colour in SIDES.items():
         depth = MM * with_clearance[f"pin.{REAR}.{side}_depth"]
-        panels[1].plot(with_clearance.time, depth, color=colour, lw=WIDTHS[side], label=f"{side} edge")
-    columns = {f"front_column_{side}.force": colour for side, colour in sides.items()}
-    _lines(panels[2], with_clearance, ideal, columns, 1e-3)
-    _at_end(panels[2], with_clearance, columns, 1e-3)
+        depths.plot(time, depth, color=colour, lw=WIDTHS[side], label=f"{side} edge")
     # with ideal pins rigid bodies do not determine it
     moment = np.hypot(with_clearance[f"pin.{REAR}.moment_x"], with_clearance[f"pin.{REAR}.moment_y"])
-    panels[3].plot(with_clearance.time, 1e-3 * moment, color=style.IDEAL, label="moment across the pin")
+    moments.plot(time, 1e-3 * moment, color=style.IDEAL, label="moment across the pin")
     labels = (
-        "turn of the canopy [deg]",
-        "indentation [mm]",
-        "column force [kN]",
-        "moment on the\nrear pin [kN m]",
-    )
+        "turn of the canopy [deg]", "indentation [mm]", "column force [kN]", "moment on the\nrear pin [kN m]",
+    )  # fmt: skip
     drive = with_clearance.scenario.drive
-    for axes, label in zip(panels, labels, strict=False):
+    for axes, label in zip(panels.flat, labels, strict=False):
         axes.set(xlabel="time [s]", ylabel=label)
         axes.set_xlim(0.0, with_clearance.scenario.duration)
         axes.set_xticks(np.linspace(drive.breaks[0], drive.breaks[-1], 5))
         axes.margins(y=0.12)
-    for axes, run in zip(panels[4:], (with_clearance, equal), strict=True):
-        _orbits(axes, run, sides)
-    letters(panels)
-    handles = [_key("left", sides["left"]), _key("right", sides["right"])]
-    handles += [_key(f"clearance {CLEARANCE_MM:g} mm, friction", style.IDEAL)]
-    handles += [Line2D([], [], color=style.IDEAL, ls=DASHES, label="ideal pins (a, c)")]
+    for axes, run in zip(paths, (with_clearance, equal), strict=True):
+        _orbits(axes, run)
+    colours = {**SIDES, f"clearance {CLEARANCE_MM:g} mm, friction": style.IDEAL}
+    handles = [Line2D([], [], color=colour, label=label) for label, colour in colours.items()]
+    handles.append(Line2D([], [], color=style.IDEAL, ls=DASHES, label="ideal pins (a, c)"))
     drawing.legend(handles=handles, loc="outside lower center", ncols=4)
-    return drawing
+    return finish(drawing, panels)
 
 
-def _at_end(axes: Axes, run: Result, colours: Mapping[str, str], scale: float) -> None:
-    """What a curve is, beside its end, above the higher and below the lower one."""
-    ends = {channel: scale * run[channel][-1] for channel in colours}
-    for channel, colour in colours.items():
+def _courses(
+    axes: Axes,
+    with_clearance: Result,
+    ideal: Result,
+    channels: Mapping[str, tuple[str, str]],
+    scale: float,
+) -> None:
+    """Channels with clearance and with ideal pins; each named at its end, above the higher, below the lower."""
+    ends = {channel: scale * with_clearance[channel][-1] for channel in channels}
+    for channel, (label, colour) in channels.items():
+        name = channel.replace("_", " ").replace(".", ", ")
+        axes.plot(ideal.time, scale * ideal[channel], color=colour, ls=DASHES, label=f"{name}, ideal pins")
+        values = scale * with_clearance[channel]
+        axes.plot(with_clearance.time, values, color=colour, label=f"{name}, clearance")
         above = ends[channel] == max(ends.values())
-        said = channel.split(".")[0].split("_")[-1] if channel.endswith(".force") else channel.split(".")[1]
         axes.annotate(
-            said, (run.time[-1], ends[channel]), (-4, 5 if above else -5), textcoords="offset points",
-            color=colour, ha="right", va="bottom" if above else "top", fontsize=8,
+            label, (with_clearance.time[-1], ends[channel]), (-4, 5 if above else -5), color=colour, ha="right",
+            textcoords="offset points", va="bottom" if above else "top", fontsize=8,
         )  # fmt: skip
 
 
-def _lines(axes: Axes, with_clearance: Result, ideal: Result, colours: Mapping[str, str], scale: float) -> None:
-    for channel, colour in colours.items():
-        name = channel.replace("_", " ").replace(".", ", ")
-        axes.plot(ideal.time, scale * ideal[channel], color=colour, ls=DASHES, label=f"{name}, ideal pins")
-        axes.plot(
-            with_clearance.time, scale * with_clearance[channel], color=colour, label=f"{name}, clearance"
-        )
-
-
-def _orbits(axes: Axes, run: Result, sides: Mapping[str, str]) -> None:
+def _orbits(axes: Axes, run: Result) -> None:
     """Paths of the journal's ends; grey: where it makes contact."""
     turn = np.linspace(0.0, 2.0 * np.pi, 200)
     axes.plot(CLEARANCE_MM * np.cos(turn), CLEARANCE_MM * np.sin(turn), color="#999999", lw=0.8)
-    for side, colour in sides.items():
+    for side, colour in SIDES.items():
         x, y = (MM * run[f"pin.{REAR}.{side}_eccentricity_{axis}"] for axis in "xy")
         axes.plot(x, y, color=colour, lw=WIDTHS[side])
         axes.plot(x[-1], y[-1], "o", color=colour, ms=5 if side == "left" else 3)
     axes.set(aspect="equal", xlabel="forward [mm]", ylabel="up [mm]")
-
-
-def _key(label: str, colour: str) -> Line2D:
-    return Line2D([], [], color=colour, label=label)
 
 
 # --- plane and space ---
@@ -307,25 +298,23 @@ def advice_table(tried: Tried) -> Sheet:
 # --- for sentences ---
 
 
+def _of_elements(measured: Mapping[str, MeasuredScene], group: str, heading: str) -> list[tuple[str, Change]]:
+    """The elements of a group with the change of a number against the plainest or the fullest scene."""
+    return [
+        (one.scene.element[2:], changes(one, measured[one.scene.reference])[heading])
+        for one in measured.values()
+        if one.scene.group == group and one.scene.reference in (PLAINEST, FULLEST)
+    ]
+
+
 def strongest(measured: Mapping[str, MeasuredScene], group: str, heading: str, most: int = 3) -> list[str]:
     """The elements of a group that surely change a number most, each with its change, the strongest first."""
-    found = []
-    for one in measured.values():
-        if one.scene.group == group and one.scene.reference in (PLAINEST, FULLEST):
-            changed = changes(one, measured[one.scene.reference])[heading]
-            if not changed.below_error:
-                found.append((abs(changed.value) - changed.error, one.scene.element[2:], changed))
-    found.sort(key=lambda item: item[0], reverse=True)
-    return [f"{element} ({shown(changed)})" for _, element, changed in found[:most]]
+    sure = [one for one in _of_elements(measured, group, heading) if not one[1].below_error]
+    sure.sort(key=lambda one: abs(one[1].value) - one[1].error, reverse=True)
+    return [f"{element} ({shown(changed)})" for element, changed in sure[:most]]
 
 
 def without_effect(measured: Mapping[str, MeasuredScene], group: str, heading: str, least: float) -> list[str]:
     """The elements of a group that surely change a number by less than this."""
-    return [
-        one.scene.element[2:]
-        for one in measured.values()
-        if one.scene.group == group
-        and one.scene.reference in (PLAINEST, FULLEST)
-        and (changed := changes(one, measured[one.scene.reference])[heading])
-        and abs(changed.value) + changed.error < least
-    ]
+    elements = _of_elements(measured, group, heading)
+    return [element for element, changed in elements if abs(changed.value) + changed.error < least]

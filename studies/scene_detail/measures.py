@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import operator
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -169,12 +169,9 @@ def _of_unequal(scene: DetailScene, result: Result) -> Numbers:
             lambda run: float(np.hypot(run[f"{moment}_x"], run[f"{moment}_y"]).max()),
         )
     if REAR in scene.scenario.clearance_pins:
-        measures |= {f"largest_{side}_depth": ("m", _deepest(side)) for side in ("left", "right")}
+        measures["largest_left_depth"] = "m", lambda run: float(run[f"pin.{REAR}.left_depth"].max())
+        measures["largest_right_depth"] = "m", lambda run: float(run[f"pin.{REAR}.right_depth"].max())
     return {name: estimate(result, unit, get) for name, (unit, get) in measures.items()}
-
-
-def _deepest(side: str) -> Get:
-    return lambda run: float(run[f"pin.{REAR}.{side}_depth"].max())
 
 
 def tip_distance(scene: DetailScene, run: Result, other: Result) -> Estimate:
@@ -220,37 +217,29 @@ def listed(measured: Mapping[str, MeasuredScene]) -> list[Number]:
     """All numbers of all scenes, costs among them."""
     found = []
     for name, one in measured.items():
-        for what, (size, error, unit) in one.numbers.items():
-            found.append(Number(what, name, size, unit, error))
-        found += _costs(name, one.cost)
+        found += [Number(what, name, size, unit, error) for what, (size, error, unit) in one.numbers.items()]
+        cost = one.cost
+        of_step = cost.scatter / cost.seconds * cost.per_step
+        found += [
+            Number("processor_time", name, cost.seconds, "s", cost.scatter),
+            Number("processor_time_of_a_step", name, cost.per_step, "us", of_step),
+            Number("user_function_calls_a_step", name, cost.calls, "1", 0.0),
+            Number("steps", name, float(cost.steps), "1", 0.0),
+        ]
     return found
-
-
-def _costs(name: str, cost: Cost) -> Sequence[Number]:
-    share = cost.scatter / cost.seconds
-    return [
-        Number("processor_time", name, cost.seconds, "s", cost.scatter),
-        Number("processor_time_of_a_step", name, cost.per_step, "us", share * cost.per_step),
-        Number("user_function_calls_a_step", name, cost.calls, "1", 0.0),
-        Number("steps", name, float(cost.steps), "1", 0.0),
-    ]
 
 
 def table(measured: Mapping[str, MeasuredScene], said: Mapping[str, str]) -> EvidenceTable:
     """What advice is taken from."""
-    scenes = [
+    scenes = tuple(
         Tried(
-            name,
-            one.scene.family,
-            fields_of(one.scene.scenario),
-            one.numbers,
-            round(one.cost.seconds, 4),
+            name, one.scene.family, fields_of(one.scene.scenario), one.numbers, round(one.cost.seconds, 4),
             one.cost.steps,
         )
         for name, one in measured.items()
-    ]
+    )  # fmt: skip
     unequal = next(name for name, one in measured.items() if one.scene.family == UNEQUAL)
-    return EvidenceTable(tuple(scenes), {STROKE: FULLEST, UNEQUAL: unequal}, said)
+    return EvidenceTable(scenes, {STROKE: FULLEST, UNEQUAL: unequal}, said)
 
 
 def times_as_long(one: MeasuredScene, other: MeasuredScene) -> float:
@@ -298,6 +287,4 @@ def _good(name: str, result: Result | Failure, seconds: float) -> tuple[Result, 
 
 def timed(scenario: Scenario) -> float:
     """Processor time of a run [s]."""
-    begun = time.process_time()
-    simulate(scenario)
-    return time.process_time() - begun
+    return _good("", *_run(0, "", scenario))[1]

@@ -1,6 +1,6 @@
 """The scenes: elements added to the plainest, taken from the fullest, both in space, and combined."""
 
-from collections.abc import Iterable
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 
@@ -107,135 +107,119 @@ def clearance_joint(sliding_coefficient: float) -> ClearancePin:
     return ClearancePin(contact=JournalContact(bearing=bearing, normal=normal, friction=friction))
 
 
-def friction_pin() -> IdealPin:
-    """An ideal pin with friction, as thick as the paper's."""
-    return IdealPin(
-        friction=Ambrosio(sliding_coefficient=FRICTION), radius=paper_machine.bearing(CLEARANCE_MM).bore_radius
-    )
+SMOOTH, ROUGH = clearance_joint(0.0), clearance_joint(FRICTION)
+RUBBING = IdealPin(  # with friction, as thick as the paper's
+    friction=Ambrosio(sliding_coefficient=FRICTION), radius=paper_machine.bearing(CLEARANCE_MM).bore_radius
+)
+OIL = paper_machine.oil_columns()
+ON_JACK = {"tail_beam": OwnBody(jack=paper_machine.JACK)}
 
 
-def in_plane() -> list[DetailScene]:
-    """What is added to the plainest and taken from the fullest scene, and cheap combinations."""
-    plain = stroke()
-    full = fullest(plain)
-    return [*_added(plain), *_taken(full), *_combined(plain)]
+def everywhere(pin: Pin) -> dict[str, Pin]:
+    """The pin in all places of the linkage."""
+    return dict.fromkeys(reference_support().linkage().pins, pin)
 
 
 def fullest(plain: Scenario) -> Scenario:
     """Clearance and friction in all pins, columns of two bodies on oil, the tail beam on an oil jack."""
-    oil = paper_machine.oil_columns()["front_column"]
-    return replace(
-        plain,
-        pins=_all(plain, clearance_joint(FRICTION)),
-        actuators=cylinders_and_rods(oil),
-        parts={"tail_beam": OwnBody(jack=paper_machine.JACK)},
-    )
+    heavy = cylinders_and_rods(OIL["front_column"])
+    return replace(plain, pins=everywhere(ROUGH), actuators=heavy, parts=ON_JACK)
 
 
-def _all(plain: Scenario, pin: Pin) -> dict[str, Pin]:
-    return dict.fromkeys(plain.machine.linkage().pins, pin)
+Elements = dict[str, dict[str, Any]]  # what differs from the reference, by name
 
 
-def _added(plain: Scenario) -> Iterable[DetailScene]:
-    oil = paper_machine.oil_columns()
-    slippery, rubbing = clearance_joint(0.0), friction_pin()
-    rear: dict[str, Pin] = {REAR: slippery}
-    changes: dict[str, dict[str, Any]] = {
-        "clearance, rear pin": {"pins": rear},
-        "clearance, 2 pins": {"pins": dict.fromkeys(TWO, slippery)},
-        "clearance, 5 pins": {"pins": _all(plain, slippery)},
-        "friction, rear pin": {"pins": {REAR: rubbing}},
-        "friction, 5 pins": {"pins": _all(plain, rubbing)},
-        "clearance and friction, rear pin": {"pins": {REAR: clearance_joint(FRICTION)}},
+def added() -> Elements:
+    """What is added to the plainest scene."""
+    return {
+        "clearance, rear pin": {"pins": {REAR: SMOOTH}},
+        "clearance, 2 pins": {"pins": dict.fromkeys(TWO, SMOOTH)},
+        "clearance, 5 pins": {"pins": everywhere(SMOOTH)},
+        "friction, rear pin": {"pins": {REAR: RUBBING}},
+        "friction, 5 pins": {"pins": everywhere(RUBBING)},
+        "clearance and friction, rear pin": {"pins": {REAR: ROUGH}},
         "mass of columns": {"actuators": cylinders_and_rods()},
-        "oil in columns": {"actuators": oil},
-        "mass and oil of columns": {"actuators": cylinders_and_rods(oil["front_column"])},
+        "oil in columns": {"actuators": OIL},
+        "mass and oil of columns": {"actuators": cylinders_and_rods(OIL["front_column"])},
         "tail beam, rigid jack": {"parts": {"tail_beam": OwnBody()}},
-        "tail beam, oil jack": {"parts": {"tail_beam": OwnBody(jack=paper_machine.JACK)}},
+        "tail beam, oil jack": {"parts": ON_JACK},
         "space": {"dimensions": 3},
     }
-    yield DetailScene(PLAINEST, "added", "", STROKE, plain)
-    for name, fields in changes.items():
-        yield DetailScene(f"{PLAINEST} + {name}", "added", PLAINEST, STROKE, replace(plain, **fields))
-    settled = replace(plain, pins=rear, start="settled")
-    yield DetailScene(f"{WITH_CLEARANCE} + settled start", "added", WITH_CLEARANCE, STROKE, settled)
 
 
-def _taken(full: Scenario) -> Iterable[DetailScene]:
-    with_clearance, rubbing = clearance_joint(FRICTION), friction_pin()
-    changes: dict[str, dict[str, Any]] = {
-        "friction": {"pins": _all(full, clearance_joint(0.0))},
-        "clearance": {"pins": _all(full, rubbing)},
-        "clearance, but in rear pin": {"pins": _all(full, rubbing) | {REAR: with_clearance}},
-        "clearance, but in 2 pins": {"pins": _all(full, rubbing) | dict.fromkeys(TWO, with_clearance)},
+def taken() -> Elements:
+    """What is taken from the fullest scene."""
+    return {
+        "friction": {"pins": everywhere(SMOOTH)},
+        "clearance": {"pins": everywhere(RUBBING)},
+        "clearance, but in rear pin": {"pins": everywhere(RUBBING) | {REAR: ROUGH}},
+        "clearance, but in 2 pins": {"pins": everywhere(RUBBING) | dict.fromkeys(TWO, ROUGH)},
         "clearance and friction": {"pins": {}},
-        "mass of columns": {"actuators": paper_machine.oil_columns()},
+        "mass of columns": {"actuators": OIL},
         "oil in columns": {"actuators": cylinders_and_rods()},
         "mass and oil of columns": {"actuators": {}},
         "oil of tail beam's jack": {"parts": {"tail_beam": OwnBody()}},
         "tail beam": {"parts": {}},
         "concentric start": {"start": "settled"},
     }
-    yield DetailScene(FULLEST, "taken", "", STROKE, full)
-    for name, fields in changes.items():
-        yield DetailScene(f"{FULLEST} - {name}", "taken", FULLEST, STROKE, replace(full, **fields))
 
 
-def _combined(plain: Scenario) -> Iterable[DetailScene]:
-    with_clearance = clearance_joint(FRICTION)
-    five = replace(plain, pins=_all(plain, with_clearance))
-    rear = replace(plain, pins={REAR: with_clearance}, start="settled")
-    settled = replace(five, start="settled")
-    both = "clearance and friction"
-    yield DetailScene(f"{PLAINEST} + {both}, 5 pins", "combined", FULLEST, STROKE, five)
-    yield DetailScene(f"{PLAINEST} + {both}, 5 pins, settled", "combined", FULLEST, STROKE, settled)
-    yield DetailScene(f"{PLAINEST} + {both}, rear pin, settled", "combined", FULLEST, STROKE, rear)
+def combined() -> Elements:
+    """Cheap combinations of elements, added to the plainest scene."""
+    return {
+        "5 pins": {"pins": everywhere(ROUGH)},
+        "5 pins, settled": {"pins": everywhere(ROUGH), "start": "settled"},
+        "rear pin, settled": {"pins": {REAR: ROUGH}, "start": "settled"},
+    }
 
 
-def in_space() -> list[DetailScene]:
-    """The paper's pin in space, driven as in the plane."""
-    plain = replace(stroke(), dimensions=3)
-    pins = {CLEARANCE_IN_SPACE: (WITH_CLEARANCE, 0.0), PAPERS_IN_SPACE: (PAPERS, FRICTION)}
-    return [
-        DetailScene(name, "space", planar, STROKE, replace(plain, pins={REAR: clearance_joint(friction)}))
-        for name, (planar, friction) in pins.items()
-    ]
+def of_strokes() -> Iterator[DetailScene]:
+    """Elements added to the plainest scene and taken from the fullest, cheap combinations, and space."""
+
+    def scene(name: str, group: Group, reference: str, base: Scenario, **fields: Any) -> DetailScene:
+        return DetailScene(name, group, reference, STROKE, replace(base, **fields))
+
+    plain = stroke()
+    full = fullest(plain)
+    yield scene(PLAINEST, "added", "", plain)
+    for name, fields in added().items():
+        yield scene(f"{PLAINEST} + {name}", "added", PLAINEST, plain, **fields)
+    settled = f"{WITH_CLEARANCE} + settled start"
+    yield scene(settled, "added", WITH_CLEARANCE, plain, pins={REAR: SMOOTH}, start="settled")
+    yield scene(FULLEST, "taken", "", full)
+    for name, fields in taken().items():
+        yield scene(f"{FULLEST} - {name}", "taken", FULLEST, full, **fields)
+    for name, fields in combined().items():
+        yield scene(f"{PAPERS.removesuffix('rear pin')}{name}", "combined", FULLEST, plain, **fields)
+    for name, planar, pin in (
+        (CLEARANCE_IN_SPACE, WITH_CLEARANCE, SMOOTH), (PAPERS_IN_SPACE, PAPERS, ROUGH),
+    ):  # fmt: skip
+        yield scene(name, "space", planar, plain, dimensions=3, pins={REAR: pin})
 
 
-def unequal() -> list[DetailScene]:
-    """The front columns driven apart, on oil, from a settled start; one of equal columns beside them."""
-
-    def drive(share: float) -> CubicStep:
-        return replace(BESIDE, stroke=share * BESIDE.stroke)
-
-    base = Scenario(
+def unequal() -> Iterator[DetailScene]:
+    """The front columns driven apart, on oil, from a settled start; and equal columns for comparison."""
+    left, right = (replace(BESIDE, stroke=share * BESIDE.stroke) for share in (1.0 - APART, 1.0 + APART))
+    ideal = Scenario(
         machine=reference_support(),
-        drive=drive(1.0),
-        drives={"front_column_left": drive(1.0 - APART), "front_column_right": drive(1.0 + APART)},
+        drive=BESIDE,
+        drives={"front_column_left": left, "front_column_right": right},
         duration=BESIDE.end,
         dimensions=3,
-        actuators=paper_machine.oil_columns(),
+        actuators=OIL,
         start="settled",
         step=STEP_BESIDE,
         record_period=STEP_BESIDE,
         solver=SolverSettings(impact_steps=IMPACT_STEPS, sections=SECTIONS, newton_tolerance=NEWTON_TOLERANCE),
         channels=CHANNELS_UNEQUAL,
     )
-    rubbing = replace(base, pins={REAR: clearance_joint(FRICTION)})
-    return [
-        DetailScene(UNEQUAL_FULLEST, "unequal", "", UNEQUAL, rubbing),
-        DetailScene(
-            UNEQUAL_WITH_CLEARANCE,
-            "unequal",
-            UNEQUAL_FULLEST,
-            UNEQUAL,
-            replace(base, pins={REAR: clearance_joint(0.0)}),
-        ),
-        DetailScene(UNEQUAL_IDEAL, "unequal", UNEQUAL_FULLEST, UNEQUAL, base),
-        DetailScene(EQUAL, "unequal", UNEQUAL_FULLEST, "", replace(rubbing, drives={})),
-    ]
+    rough, smooth = (replace(ideal, pins={REAR: pin}) for pin in (ROUGH, SMOOTH))
+    yield DetailScene(UNEQUAL_FULLEST, "unequal", "", UNEQUAL, rough)
+    yield DetailScene(UNEQUAL_WITH_CLEARANCE, "unequal", UNEQUAL_FULLEST, UNEQUAL, smooth)
+    yield DetailScene(UNEQUAL_IDEAL, "unequal", UNEQUAL_FULLEST, UNEQUAL, ideal)
+    yield DetailScene(EQUAL, "unequal", UNEQUAL_FULLEST, "", replace(rough, drives={}))
 
 
 def scenes() -> dict[str, DetailScene]:
     """All, by name."""
-    return {scene.name: scene for scene in (*in_plane(), *in_space(), *unequal())}
+    return {scene.name: scene for scene in (*of_strokes(), *unequal())}

@@ -1,1 +1,1 @@
-"""Can it be told without a run whether a loaded pin shakes?"""
+"""Can friction-induced vibration of a loaded pin be predicted without a simulation?"""

@@ -6,7 +6,7 @@ all that both do alike, such as following the load's direction as that turns.
 """
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -35,13 +35,13 @@ FRICTIONS = (0.1, 0.2, 0.25)
 MID_RISE = 0.25  # [m], extension of the columns
 # Slow, so that the journal starts nearly as the load's direction turns; friction's ramp is narrowed with it
 SPEED, STATIC_SPEED, DYNAMIC_SPEED = 0.02, 1e-6, 1e-4  # of the columns; of friction [m/s]
-SMALL = 1e-3  # of the depth: how far off a journal ever is, apart from what both runs do
+SMALL = 1e-3  # of the depth: how far off a journal ever is, apart from the motion of both runs
 SWINGS = 2.0  # that a run lasts, unless it grows too much by then
 FACTOR = 4.0  # exp of that a run may grow by, if one swing is over by then
 RECORDS = 120  # of a run
 FINE = 0.1  # of the angle by which the fastest of the four motions swings on: a step
 TOLERANCE = 1e-10
-LOOK_AHEAD = 1e-4  # [s] from which on it is told how fast the equilibrium moves
+LOOK_AHEAD = 1e-4  # [s] over which the motion of the equilibrium is measured
 SIDES = (1.0, -1.0)
 
 
@@ -55,7 +55,7 @@ class PinCase:
 
     @property
     def name(self) -> str:
-        """What the study calls it."""
+        """The name of the case."""
         return f"{self.pin}, {self.stiffness}, mu_d = {self.friction:g}"
 
     def clearance_pin(self) -> ClearancePin:
@@ -113,7 +113,7 @@ def prepared(case: PinCase) -> Prepared:
     """
     scenario = case.scenario()
     start = _outlook(scenario, case, [0.0, LOOK_AHEAD])
-    pin, later = map(_told, start.found)
+    pin, later = map(_sliding, start.found)
     moves = (later.place - pin.place) / LOOK_AHEAD
     duration = run_time(pin)
     calm = _calm(start.journals[0], pin, moves, duration)
@@ -126,7 +126,7 @@ def prepared(case: PinCase) -> Prepared:
         there = replace(case.clearance_pin(), eccentricity=(x, y))
         runs.append(replace(case.scenario(duration, step), pins={case.pin: there}))
     middle = _outlook(scenario, case, [0.5 * duration])
-    return Prepared(case, _told(middle.found[0]), (runs[0], runs[1]), pin.depth)
+    return Prepared(case, _sliding(middle.found[0]), (runs[0], runs[1]), pin.depth)
 
 
 def run_time(pin: SlidingPin) -> float:
@@ -139,12 +139,12 @@ def _outlook(scenario: Scenario, case: PinCase, times: list[float]) -> PinOutloo
     return pin_outlooks(scenario, times, (case.pin,))[0]
 
 
-def _told(found: SlidingPin | None) -> SlidingPin:
-    if found is None:
+def _sliding(pin: SlidingPin | None) -> SlidingPin:
+    if pin is None:
         raise InputError(
             "stability: a pin has no place at which it slides; allowed: frictions with which it has"
         )
-    return found
+    return pin
 
 
 def _calm(journal: LoadedJournal, pin: SlidingPin, moves: Array, duration: float) -> Array:
@@ -192,36 +192,54 @@ ALIKE = 0.1  # of the growth rate, or of what counts at least
 class Growth:
     """Predicted and measured growth of a case.
 
-    predicted, measured: growth rates [1/s]. halved: the measured one at half the steps. frequencies [Hz].
-    painleve: whether the normal mobility is negative. moved: largest motion normal to the wall over the depth.
+    prepared: the case with its prediction. measured, halved: the root of the vibration that grows fastest in
+    the run, and at half its steps [1/s]. moved: largest motion normal to the wall over the depth.
     """
 
-    case: str
-    pin: str
-    stiffness: str
-    friction: float
-    predicted: float
-    measured: float
-    halved: float
-    frequency_predicted: float
-    frequency_measured: float
-    painleve: bool
+    prepared: Prepared
+    measured: complex
+    halved: complex
     moved: float
+
+    @property
+    def case(self) -> str:
+        """The name of the case."""
+        return self.prepared.case.name
+
+    @property
+    def predicted(self) -> float:
+        """Predicted growth rate [1/s]."""
+        return self.prepared.predicted.growth
+
+    @property
+    def frequency(self) -> float:
+        """Measured frequency [Hz]."""
+        return abs(self.halved.imag) / (2.0 * math.pi)
 
     @property
     def scale(self) -> float:
         """The size by which a difference of growth rates is judged [1/s]."""
-        return max(abs(self.predicted), RESOLVED * 2.0 * math.pi * self.frequency_predicted)
+        return max(abs(self.predicted), RESOLVED * 2.0 * math.pi * self.prepared.predicted.frequency)
 
     @property
     def off(self) -> float:
         """Distance of measured from predicted growth rate as a share of the scale [-]."""
-        return abs(self.halved - self.predicted) / self.scale
+        return abs(self.halved.real - self.predicted) / self.scale
 
     @property
     def by_steps(self) -> float:
         """What half the steps change, as a share of the scale [-]."""
-        return abs(self.halved - self.measured) / self.scale
+        return abs(self.halved.real - self.measured.real) / self.scale
+
+    def numbers(self) -> list[Number]:
+        """Its numbers; what is predicted has the error of a closed form."""
+        rate = self.halved.real
+        return [
+            Number("predicted_growth_rate", self.case, self.predicted, "1/s", 0.0),
+            Number("growth_rate", self.case, rate, "1/s", abs(rate - self.measured.real)),
+            Number("predicted_frequency", self.case, self.prepared.predicted.frequency, "Hz", 0.0),
+            Number("frequency", self.case, self.frequency, "Hz", 0.0),
+        ]
 
 
 def roots(time: Array, motion: Array) -> npt.NDArray[np.complex128]:
@@ -255,46 +273,14 @@ def fastest(found: npt.NDArray[np.complex128]) -> complex:
 
 def growth(one: Prepared, runs: Mapping[str, Result]) -> Growth:
     """The growth of a case in its runs."""
-    case = one.case
-    measured = [fastest(_roots_of(one, runs, fine=fine)) for fine in (False, True)]
-    depth = runs[run_name(case.name, 0, fine=True)][f"pin.{case.pin}.depth"]
-    return Growth(
-        case=case.name,
-        pin=case.pin,
-        stiffness=case.stiffness,
-        friction=case.friction,
-        predicted=one.predicted.growth,
-        measured=measured[0].real,
-        halved=measured[1].real,
-        frequency_predicted=one.predicted.frequency,
-        frequency_measured=abs(measured[1].imag) / (2.0 * math.pi),
-        painleve=one.predicted.normal_mobility < 0.0,
-        moved=float(np.ptp(depth)) / one.depth,
-    )
+    coarse, fine = (fastest(roots(*difference(one, runs, fine=fine))) for fine in (False, True))
+    depth = runs[run_name(one.case.name, 0, fine=True)][f"pin.{one.case.pin}.depth"]
+    return Growth(one, coarse, fine, float(np.ptp(depth)) / one.depth)
 
 
 def difference(one: Prepared, runs: Mapping[str, Result], *, fine: bool) -> tuple[Array, Array]:
     """Times (n,) [s] and the difference of both runs of a case (n, 2) [m]."""
     pin = one.case.pin
     both = [runs[run_name(one.case.name, side, fine=fine)] for side in (0, 1)]
-    places = [
-        np.column_stack([run[f"pin.{pin}.eccentricity_x"], run[f"pin.{pin}.eccentricity_y"]]) for run in both
-    ]
+    places = [np.column_stack([run[f"pin.{pin}.eccentricity_{axis}"] for axis in "xy"]) for run in both]
     return both[0].time, places[0] - places[1]
-
-
-def _roots_of(one: Prepared, runs: Mapping[str, Result], *, fine: bool) -> npt.NDArray[np.complex128]:
-    return roots(*difference(one, runs, fine=fine))
-
-
-def numbers(found: Sequence[Growth]) -> list[Number]:
-    """All numbers of the study; what is predicted has the error of a closed form."""
-    told = []
-    for one in found:
-        told += [
-            Number("predicted_growth_rate", one.case, one.predicted, "1/s", 0.0),
-            Number("growth_rate", one.case, one.halved, "1/s", abs(one.halved - one.measured)),
-            Number("predicted_frequency", one.case, one.frequency_predicted, "Hz", 0.0),
-            Number("frequency", one.case, one.frequency_measured, "Hz", 0.0),
-        ]
-    return told

@@ -1,4 +1,4 @@
-"""Can it be told without a run whether a loaded pin that slides shakes?
+"""Can friction-induced vibration of a loaded pin be predicted without a simulation?
 
 The growth rate of small motions of a pin's journal, from inverse effective mass, contact law, load and friction
 of a posture, beside the growth of a small motion in a run: four pins of the reference support in mid-rise, four
@@ -17,7 +17,7 @@ from matplotlib.figure import Figure
 
 from studies.common.numbers import Number
 from studies.common.options import Options
-from studies.common.panels import finish
+from studies.common.panels import finish, grid
 from studies.common.paper_machine import clearance_rise
 from studies.common.runs import run_cases
 from studies.common.study import Study, StudyOutcome
@@ -33,7 +33,6 @@ from studies.stability.motions import (
     all_scenarios,
     difference,
     growth,
-    numbers,
     prepared,
     run_name,
 )
@@ -89,12 +88,12 @@ def stroke_table(strokes: Mapping[tuple[str, str], WholeStroke]) -> Sheet:
         outlook = stroke.outlook
         worst = outlook.worst
         assert worst is not None
-        told = outlook.found[worst]
-        assert told is not None
+        fastest = outlook.found[worst]
+        assert fastest is not None
         limits = (stroke.critical, stroke.undamped, stroke.painleve)
         rows.append((
-            pin, stiffness, "stable" if outlook.stable else "shakes", f"{told.growth:.2f}",
-            f"{told.frequency:.1f}", f"{1e3 * outlook.travels[worst]:.0f}", f"{1e6 * told.depth:.3g}",
+            pin, stiffness, "stable" if outlook.stable else "shakes", f"{fastest.growth:.2f}",
+            f"{fastest.frequency:.1f}", f"{1e3 * outlook.travels[worst]:.0f}", f"{1e6 * fastest.depth:.3g}",
             *(f"{limit:.3f}" if limit <= 1.0 else "none" for limit in limits),
         ))  # fmt: skip
     header = (
@@ -106,19 +105,17 @@ def stroke_table(strokes: Mapping[tuple[str, str], WholeStroke]) -> Sheet:
 
 def stroke_numbers(strokes: Mapping[tuple[str, str], WholeStroke]) -> list[Number]:
     """Critical friction and threshold of every pin; that there is none is not a number of the summary."""
-    told = []
-    for (pin, stiffness), stroke in strokes.items():
-        limits = {
-            "critical_friction": stroke.critical,
-            "critical_friction_undamped": stroke.undamped,
-            "painleve_friction": stroke.painleve,
-        }
-        told += [
-            Number(name, f"{pin}, {stiffness}", limit, "1", PRECISE)
-            for name, limit in limits.items()
-            if math.isfinite(limit)
-        ]
-    return told
+    names = {
+        "critical_friction": "critical",
+        "critical_friction_undamped": "undamped",
+        "painleve_friction": "painleve",
+    }
+    return [
+        Number(name, f"{pin}, {stiffness}", getattr(stroke, limit), "1", PRECISE)
+        for (pin, stiffness), stroke in strokes.items()
+        for name, limit in names.items()
+        if math.isfinite(getattr(stroke, limit))
+    ]
 
 
 # --- figures ---
@@ -130,18 +127,17 @@ LINEAR = 0.1  # [1/s] up to which the axes of growth rates are linear
 
 def answer_figure(found: Sequence[Growth], shown: Prepared, runs: Mapping[str, Result]) -> Figure:
     """Measured over predicted growth rates (a), and the small motion of one case with what is predicted (b)."""
-    drawing = Figure(figsize=style.size(170, 88))
-    rates, motion = drawing.subplots(1, 2, width_ratios=(1.0, 1.15))
+    drawing, panels = grid(88, 1, 2, width_ratios=(1.0, 1.15))
+    rates, motion = panels.flat
     for one in found:
-        rates.plot(
-            one.predicted, one.halved, MARKERS[one.stiffness], color=COLOURS[one.pin], ms=4, mfc="none", mew=0.9
-        )
+        case = one.prepared.case
+        look = {"color": COLOURS[case.pin], "ms": 4, "mfc": "none", "mew": 0.9}
+        rates.plot(one.predicted, one.halved.real, MARKERS[case.stiffness], **look)
     ends = (1.5 * min(one.predicted for one in found), 1.5 * max(one.predicted for one in found))
     rates.plot(ends, ends, color="#999999", lw=0.8, zorder=0.5)
-    rates.set_xscale("symlog", linthresh=LINEAR)
-    rates.set_yscale("symlog", linthresh=LINEAR)
     ticks = [-1.0, 0.0, 1.0, 10.0, 100.0]
-    for axis in (rates.xaxis, rates.yaxis):
+    for name, axis in (("x", rates.xaxis), ("y", rates.yaxis)):
+        getattr(rates, f"set_{name}scale")("symlog", linthresh=LINEAR)
         axis.set_ticks(ticks, [f"{tick:g}" for tick in ticks])
         axis.set_ticks([], minor=True)
     rates.set(xlim=ends, ylim=ends, xlabel="predicted growth rate [1/s]", ylabel="in a run [1/s]")
@@ -151,7 +147,7 @@ def answer_figure(found: Sequence[Growth], shown: Prepared, runs: Mapping[str, R
         rates.plot([], [], marker, color="black", ms=4, mfc="none", label=name)
     drawing.legend(*rates.get_legend_handles_labels(), loc="outside lower left", ncols=4, fontsize=7)
     _motion(motion, shown, runs)
-    return finish(drawing, [rates, motion])
+    return finish(drawing, panels)
 
 
 def _motion(axes: Axes, shown: Prepared, runs: Mapping[str, Result]) -> None:
@@ -172,12 +168,11 @@ def _motion(axes: Axes, shown: Prepared, runs: Mapping[str, Result]) -> None:
 
 def map_figure(maps: Mapping[str, PinOutlook]) -> Figure:
     """Growth rates over stroke and friction, a panel for each pin and stiffness, by their titles."""
-    drawing = Figure(figsize=style.size(170, 120))
-    panels = list(drawing.subplots(2, 2, sharex=True, sharey=True).flat)
-    for axes, (title, outlook) in zip(panels, maps.items(), strict=True):
+    drawing, panels = grid(120, 2, 2, sharex=True, sharey=True)
+    for axes, (title, outlook) in zip(panels.flat, maps.items(), strict=True):
         colours = draw_map(axes, outlook)
         axes.set_title(title, fontsize=8)
-    colour_bar(drawing, panels, colours)
+    colour_bar(drawing, list(panels.flat), colours)
     return finish(drawing, panels)
 
 
@@ -194,7 +189,7 @@ def work(chosen: Options) -> StudyOutcome:
         for stiffness in STIFFNESSES
         for pin in PINS
     }
-    reported = numbers(found) + stroke_numbers(strokes)
+    reported = [number for one in found for number in one.numbers()] + stroke_numbers(strokes)
     words = {
         "run": sys.modules[__name__],
         "found": found,

@@ -30,7 +30,7 @@ from studies.extremes.judge import (
 )
 from studies.extremes.legs import oil_open
 from studies.extremes.scenes import ALL, BOX, HYDRAULICS, MAPS, Case, cases, mapped
-from support_exudyn import Failure, Result, Scenario, SimulationError, simulate
+from support_exudyn import Failure, Held, Result, Scenario, SimulationError, simulate
 from support_exudyn.mechanics.time_statistics import TimeStatistics
 from support_exudyn.scene.limits import DEEPEST
 from support_exudyn.simulation.reported_numbers import measured
@@ -304,7 +304,7 @@ def few() -> list[Case]:
     found[1] = replace(found[1], scenario=refused)
     found[5] = replace(found[5], scenario=broken)
     point = Point(pace=0.2)
-    box = of(lambda: supports.boxed(point, "draft", supports.Held()), "boxed", BOX)
+    box = of(lambda: supports.boxed(point, "draft", Held()), "boxed", BOX)
     return [*found, box]
 
 

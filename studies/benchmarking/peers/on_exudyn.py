@@ -30,15 +30,16 @@ from exudyn.itemInterface import (
 )
 
 from studies.benchmarking.peers.plain_support import (
-    PIN,
+    COLUMN_LINK,
+    JOURNAL_LINK,
     JournalForce,
+    Link,
     PeerRun,
     contact_numbers,
     journal_force,
     plain_support,
     undisturbed,
 )
-from support_exudyn.model.linkage import GROUND, Body
 from support_exudyn.scenario.scenario import Scenario
 from user_forces import ClearanceJoint
 from user_forces.connector.bodies import mount
@@ -65,50 +66,40 @@ class BareScene:
     """
 
     def __init__(self, scenario: Scenario) -> None:
-        self.scenario, self.linkage = scenario, scenario.machine.linkage()
+        support = plain_support(scenario)
+        self.scenario, self.contact, self._links = scenario, support.contact, support.links
         self.container = exudyn.SystemContainer()  # owns the system, and must live as long as that
         self.mbs = self.container.AddSystem()
-        self._objects = {GROUND: self.mbs.AddObject(ObjectGround())}
         self._driven = 0.0  # extension that the engine has [m]
-        for name, body in self.linkage.bodies.items():
-            self._add_body(name, body)
-        for name, joint in self.linkage.pins.items():
-            if name != PIN:
-                ends = self._pair(joint.first, joint.first_point, joint.second, joint.second_point)
-                self.mbs.AddObject(ObjectJointRevolute2D(markerNumbers=ends))
-        self._actuators = []
-        for one in self.linkage.actuators.values():
-            ends = self._pair(one.foot, one.foot_point, one.head, one.head_point)
-            item = ObjectConnectorDistance(markerNumbers=ends, distance=one.start_length)
-            self._actuators.append((self.mbs.AddObject(item), one.start_length))
-        support, joint = plain_support(scenario), self.linkage.pins[PIN]
-        self.contact = support.contact
-        self.ends = self._end(joint.first, support.bore), self._end(joint.second, support.bore)
+        self._objects = [*(self._body(link, support.gravity) for link in support.links)]
+        self._objects.append(self.mbs.AddObject(ObjectGround()))  # the last, which -1 means
+        for n, link in enumerate(support.links):
+            ends = [self.marker(self._end(body, link.pin)) for body in (link.parent, n)]
+            self.mbs.AddObject(ObjectJointRevolute2D(markerNumbers=ends))
+        self._columns = []
+        for column in support.columns:
+            ends = [self.marker(self._end(-1, column.foot)), self.marker(self._end(COLUMN_LINK, column.head))]
+            item = ObjectConnectorDistance(markerNumbers=ends, distance=column.length)
+            self._columns.append((self.mbs.AddObject(item), column.length))
+        self.ends = self._end(-1, support.bore), self._end(JOURNAL_LINK, support.bore)
 
-    def _add_body(self, name: str, body: Body) -> None:
-        node = self.mbs.AddNode(NodeRigidBody2D(referenceCoordinates=[*body.centre, body.angle]))
-        item = self.mbs.AddObject(ObjectRigidBody2D(mass=body.mass, inertia=body.inertia, nodeNumber=node))
-        self._objects[name] = item
+    def _body(self, link: Link, gravity: Vector2) -> Any:
+        node = self.mbs.AddNode(NodeRigidBody2D(referenceCoordinates=[*link.centre, 0.0]))
+        item = self.mbs.AddObject(ObjectRigidBody2D(mass=link.mass, inertia=link.inertia, nodeNumber=node))
         centre = self.mbs.AddMarker(MarkerBodyPosition(bodyNumber=item, localPosition=[0, 0, 0]))
-        weight = [body.mass * self.scenario.gravity[0], body.mass * self.scenario.gravity[1], 0.0]
+        weight = [link.mass * gravity[0], link.mass * gravity[1], 0.0]
         self.mbs.AddLoad(LoadForceVector(markerNumber=centre, loadVector=weight))
+        return item
 
-    def _end(self, body: str, point: Vector2) -> tuple[Any, list[float]]:
-        """The engine's number of a body and the place of a point in its frame [m]."""
-        if body == GROUND:
-            return self._objects[GROUND], [*point, 0.0]
-        place = self.linkage.bodies[body]
-        c, s = math.cos(place.angle), math.sin(place.angle)
-        x, y = point[0] - place.centre[0], point[1] - place.centre[1]
-        return self._objects[body], [c * x + s * y, c * y - s * x, 0.0]
+    def _end(self, body: int, point: Vector2) -> tuple[Any, list[float]]:
+        """The engine's number of a link, -1 for the ground, and the place of a point in its frame [m]."""
+        x, y = self._links[body].centre if body >= 0 else (0.0, 0.0)
+        return self._objects[body], [point[0] - x, point[1] - y, 0.0]
 
     def marker(self, end: tuple[Any, list[float]], aside: float = 0.0) -> Any:
         """A marker at an end, moved along x [m]."""
         number, (x, y, z) = end
         return self.mbs.AddMarker(MarkerBodyRigid(bodyNumber=number, localPosition=[x + aside, y, z]))
-
-    def _pair(self, first: str, first_point: Vector2, second: str, second_point: Vector2) -> list[Any]:
-        return [self.marker(self._end(first, first_point)), self.marker(self._end(second, second_point))]
 
     def solve(self, step: float, before_step: Callable[[], None]) -> float:
         """Solve by generalised alpha with equal steps [s]; returns the processor time [s].
@@ -123,7 +114,7 @@ class BareScene:
             extension = self.scenario.drive.extension(t)
             if extension != self._driven:
                 self._driven = extension
-                for item, length in self._actuators:
+                for item, length in self._columns:
                     self.mbs.SetObjectParameter(item, "distance", length + extension)
             return True
 
