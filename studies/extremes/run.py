@@ -259,4 +259,4 @@ def _of_map(here: Sequence[Judgement]) -> dict[str, float]:
     return {**ended(here), "runs": len(here), "median": float(np.median(errors)), "worst": largest(errors)}
 
 
-study = Study("extremes", __doc__, work, seconds=830.0)
+study = Study("extremes", __doc__, work, seconds=660.0)
