@@ -25,7 +25,7 @@ from user_forces.values.value import InputError
 MESHES = Sampling(frames_per_second=25.0)
 MOST_VALUES = 500_000_000  # in the HDF5 file of an XDMF; 4 GB before compression
 COMPRESSION: dict[str, Any] = {"compression": "gzip", "compression_opts": 4, "shuffle": True}
-STEP = re.compile(r"(machine|pins)(_\d{5,}\.vtu|\.pvd)")
+STEP, STORE = r'file="((?:machine|pins)_\d{5,}\.vtu)"', r">([^<>:]+_mesh\.h5):/"  # in the indexes
 
 
 def to_xdmf(
@@ -77,7 +77,9 @@ def to_xdmf(
         )
     store, table = f"{path.stem}_mesh.h5", f"{path.stem}_names.csv"
     indexes = [f"{path.stem}.xdmf", f"{path.stem}_pins.xdmf"][: len(series)]
-    with whole_set(path.parent, (store, table, *indexes)) as folder:
+    pins = f"{path.stem}_pins.xdmf"  # which an earlier export of another machine may have left
+    stale = [pins] if store in _named_in(path.parent / pins, STORE) else []
+    with whole_set(path.parent, (store, table, *indexes), stale) as folder:
         # made in memory: on a full disk HDF5 would end the whole process
         with h5py.File(store, "w", driver="core", backing_store=False) as file:
             writers = [MovingMeshWriter(mesh, file, store) for mesh in series]
@@ -151,7 +153,10 @@ def to_vtu(
     steps = {mesh.name: [f"{mesh.name}_{step:05d}.vtu" for step in range(len(records))] for mesh in series}
     files = ["names.csv", *(name for of_mesh in steps.values() for name in of_mesh)]
     indexes = [f"{mesh.name}.pvd" for mesh in series]
-    stale = {path.name for path in folder.glob("*") if STEP.fullmatch(path.name)}
+    earlier = {name: _named_in(folder / name, STEP) for name in ("machine.pvd", "pins.pvd")}
+    stale = [name for name, found in earlier.items() if found] + [
+        one for found in earlier.values() for one in found
+    ]
     with whole_set(folder, [*files, *indexes], stale) as temporary:
         for step, record in enumerate(records):
             for mesh in series:
@@ -162,6 +167,14 @@ def to_vtu(
         for mesh in series:
             _write_pvd(temporary / f"{mesh.name}.pvd", steps[mesh.name], times)
     return tuple(folder / name for name in (*indexes, *files))
+
+
+def _named_in(index: Path, pattern: str) -> list[str]:
+    """The files of an earlier export, by the index that names them; none if there is no such index."""
+    try:
+        return re.findall(pattern, index.read_text(encoding="utf-8", errors="replace"))
+    except OSError:
+        return []
 
 
 def _write_step(path: Path, series: MeshSeries, record: int) -> None:

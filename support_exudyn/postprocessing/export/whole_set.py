@@ -1,6 +1,6 @@
 """Several files that belong together, written all or none."""
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
@@ -18,7 +18,7 @@ RUN = b"support_exudyn result "  # as files of runs begin, see `simulation.resul
 
 
 @contextmanager
-def whole_set(folder: Path, files: Sequence[str], stale: Collection[str] = ()) -> Iterator[Path]:
+def whole_set(folder: Path, files: Sequence[str], stale: Sequence[str] = ()) -> Iterator[Path]:
     """A temporary folder to write files to; they take their places in `folder` if nothing goes wrong.
 
     After an error or an interruption of the writing all is as it was before.
@@ -26,7 +26,8 @@ def whole_set(folder: Path, files: Sequence[str], stale: Collection[str] = ()) -
     Arguments:
         folder: made if missing.
         files: names of all that the block writes; those that name the others come last.
-        stale: files of an earlier set, which are removed if this one lacks them.
+        stale: files that are known to be of an earlier set, which are removed first, in this order. With the
+            indexes ahead, a killed process leaves no index without its files.
 
     Raises OSError that names what cannot be written; InputError if one of the files is a run.
     """
@@ -42,7 +43,7 @@ def whole_set(folder: Path, files: Sequence[str], stale: Collection[str] = ()) -
             yield temporary
             for name in files:
                 write_through(temporary / name)
-            for name in set(stale).difference(files):
+            for name in stale:
                 (place / name).unlink(missing_ok=True)
             for name in files:
                 (temporary / name).replace(place / name)

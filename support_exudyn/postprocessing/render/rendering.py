@@ -88,7 +88,7 @@ def render(
     target = _movie_path(folder, movie, movie_path)
     show = _Show(result, size or (OF_GIF if movie == "gif" else SIZE), pin, shown)
     names = [NAME.format(n) for n in range(shown.times.size)]
-    earlier = {old.name for old in folder.glob(FRAME) if old.stem[len("frame_") :].isdigit() and _is_ours(old)}
+    earlier = [old.name for old in folder.glob(FRAME) if old.stem[len("frame_") :].isdigit() and _is_ours(old)]
     share = FRAMES_SHARE if target else 1.0
     with whole_set(folder, names, earlier) as made:
         paths = [made / name for name in names]
