@@ -78,6 +78,8 @@ class _Run:
         width = record_width(model)
         at_once = min(AT_ONCE // model.scene.bodies.size, NUMBERS_AT_ONCE // (OF_STEP * width))
         self.at_once = max(1, at_once)
+        count = OF_STEP * self.at_once + 1 if self.statistics.wanted else 0
+        self.nodes = np.empty((1 + count, width))  # of steps, behind the record at the start
         self.room = self._scratch(width)
         self.rows, self.report = self.room.rows, self.room.report
         self.impulses: list[Impulse] = []
@@ -108,7 +110,7 @@ class _Run:
             times=model.times,
             rows=np.zeros((model.times.size, width)),
             forces=bool(needs(self.scenario) & (DataNeeds.ACCELERATION | DataNeeds.JOINTS)),
-            nodes=np.empty((OF_STEP * self.at_once + 1 if self.statistics.wanted else 0, width)),
+            nodes=self.nodes[1:],
             onsets=np.empty((MOST_IMPACTS if model.contacts else 0, 5)),
             oil_events=np.empty((MOST_OIL_EVENTS if model.legs.names else 0, 3)),
         )
@@ -141,7 +143,8 @@ class _Run:
         count = int(self.report[NODES])
         if count > 0:
             nodes = self.room.nodes
-            rows = np.concatenate([self.rows[:1], nodes[: OF_STEP * count]])
+            self.nodes[0] = self.rows[0]
+            rows = self.nodes[: 1 + OF_STEP * count]
             time = rows[1:, 0].reshape(count, OF_STEP).copy()
             rows[1:, 0] = within_steps(time).ravel()
             self.statistics.add(time, trajectory(self.model, rows, _oil_events(self), self.statistics.needs))
