@@ -312,8 +312,8 @@ def test_a_ground_that_is_turned_keeps_the_axis() -> None:
     [
         ({"bore_radius": -0.02}, r"bore_radius = -0.02: allowed: > 0"),
         ({"clearance": 0.02}, r"clearance = 0.02 m: .* allowed: > 0 and < 0.02 m"),
-        ({"normal": Hertz}, r"normal = <class .*Hertz'>: Input should be an instance of NormalLaw"),
-        ({"friction": 0.1}, r"friction = 0.1: Input should be an instance of FrictionLaw"),
+        ({"normal": Hertz}, r"normal = <class .*Hertz'>: Input should be a value of class NormalLaw"),
+        ({"friction": 0.1}, r"friction = 0.1: Input should be a value of class FrictionLaw"),
         ({"axis": [0, 0, 0]}, r"axis = \[0, 0, 0\]: allowed: three numbers, not all zero"),
         ({"axis": "z"}, r"axis = 'z': allowed: three numbers"),
         ({"impact_steps": 1.5}, r"impact_steps = 1.5: allowed: a whole number from 2"),
