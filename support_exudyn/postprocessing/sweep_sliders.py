@@ -62,7 +62,7 @@ def write_sliders(runs: SweepRuns, columns: Sequence[str], path: Path, title: st
     from bokeh.embed import file_html  # it takes half a second
     from bokeh.resources import Resources
 
-    document = _document(runs, columns)
+    document = _document(runs, columns, title)
     with whole_file(path) as temporary:
         temporary.write_text(file_html(document, Resources(mode="inline"), title=title), encoding="utf-8")
     return path
@@ -103,7 +103,7 @@ def _widget(name: str, values: Sequence[Any]) -> tuple[Widget, float | None]:
     ), high - low
 
 
-def _document(runs: SweepRuns, columns: Sequence[str]) -> Document:
+def _document(runs: SweepRuns, columns: Sequence[str], title: str) -> Document:
     from bokeh.document import Document
     from bokeh.events import DocumentReady
     from bokeh.layouts import column, row
@@ -118,8 +118,8 @@ def _document(runs: SweepRuns, columns: Sequence[str]) -> Document:
         if spans[name] is None:
             data[name] = [str(one) for one in data[name]]
     across_names: list[Any] = [name for name in inputs if spans[name] is not None] or numbers
-    across = Select(title="across", options=[*across_names, *numbers], value=across_names[0])
-    up = Select(title="up", options=list[Any](numbers), value=numbers[0])
+    across = Select(title="horizontal axis", options=[*across_names, *numbers], value=across_names[0])
+    up = Select(title="vertical axis", options=list[Any](numbers), value=numbers[0])
     plot = figure(height=420, width=640, tools="pan,wheel_zoom,box_zoom,reset,save")
     drawn, here, shown = (
         ColumnDataSource({"x": [], "y": []}),
@@ -145,6 +145,8 @@ def _document(runs: SweepRuns, columns: Sequence[str]) -> Document:
     for widget in (*widgets.values(), across, up):
         widget.js_on_change("value", changed)
     document = Document()
-    document.add_root(row(column(*widgets.values()), column(row(across, up), plot), shown))
+    count = len(data["run"])
+    head = Div(text=f"<b>{escape(title)}</b>: {count} runs; the sliders choose the nearest run, marked red.")
+    document.add_root(column(head, row(column(*widgets.values(), shown), column(row(across, up), plot))))
     document.js_on_event(DocumentReady, changed)
     return document
