@@ -205,10 +205,10 @@ class ComparedChannel:
         return tuple(rows)
 
     def _largest_row(self) -> ComparedRow:
-        """The largest difference before the horizon, or the record that decides, with its verdict.
+        """The largest difference before the horizon, with its verdict.
 
-        Without a tolerance, and with the errors as tolerance, that is the record with the largest multiple of
-        its error. Curves that are the same to the bit have the same errors, whatever these are.
+        Where numerical errors decide, the reason of the verdict is that of the record with the largest multiple
+        of its error. Curves that are the same to the bit have the same errors, whatever these are.
         """
         row, common = ComparedRow(self.name, self.unit, LARGEST, tolerance=self.allowed), self.common
         unknown = math.isnan(self.measures.largest)
@@ -219,21 +219,29 @@ class ComparedChannel:
             row = row._replace(verdict="not decided", reason="not decided: there are no two common values")
         if unknown:
             return row
-        at = self._largest_at
-        if (self.tolerance is None or self.tolerance.is_errors) and self.over_errors > 1.0:
-            at = int(self._multiples.argmax())
-        row = row._replace(
-            time=float(common.time[at]) if common.time.size > 1 else math.nan,
-            reference=float(common.reference[at]),
-            other=float(common.other[at]),
-            difference=float(common.difference[at]),
-            error=float(self.errors[at]),
-        )
+        row = self._at(row, self._largest_at)
         if row.verdict:
             return row
         if np.array_equal(common.reference, common.other, equal_nan=True):
             return row._replace(verdict="agrees", reason="is the same")
-        return self._judged(row, self.over_errors <= 1.0, float(common.interpolation_error[at]))
+        decides = self._largest_at
+        if (self.tolerance is None or self.tolerance.is_errors) and self.over_errors > 1.0:
+            decides = int(self._multiples.argmax())
+        judged = self._judged(
+            self._at(row, decides), self.over_errors <= 1.0, float(common.interpolation_error[decides])
+        )
+        return row._replace(verdict=judged.verdict, reason=judged.reason)
+
+    def _at(self, row: ComparedRow, place: int) -> ComparedRow:
+        """A row with the values at a place among the common times."""
+        common = self.common
+        return row._replace(
+            time=float(common.time[place]) if common.time.size > 1 else math.nan,
+            reference=float(common.reference[place]),
+            other=float(common.other[place]),
+            difference=float(common.difference[place]),
+            error=float(self.errors[place]),
+        )
 
     def _judged(self, row: ComparedRow, agrees: bool, interpolation: float = math.nan) -> ComparedRow:
         """A row with its verdict and the reason, by the tolerance, or by the numerical errors.

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy import integrate, signal, stats
 
+from support_exudyn.postprocessing.comparing.compared_channel import ComparedColumn, compared
 from support_exudyn.postprocessing.comparing.measures import (
     STATISTICS,
     CurveMeasures,
@@ -279,3 +280,19 @@ def test_a_shift_that_is_not_sure(first: np.ndarray, second: np.ndarray) -> None
 def test_what_has_no_shift_is_refused() -> None:
     with pytest.raises(InputError, match="not all equal"):
         time_shift(SECOND, bump(SECOND), SECOND, np.zeros(SECOND.size))
+
+
+# --- rows ---
+
+
+def test_the_largest_difference_is_shown_and_the_record_beyond_its_error_decides() -> None:
+    time = np.linspace(0.0, 1.0, 11)
+    apart, errors = np.full(11, 1e-3), np.full(11, 2e-3)
+    apart[7], errors[7] = 5e-3, 1e-2  # the largest, within its error
+    errors[2] = 1e-5  # a hundred times its error
+    reference = ComparedColumn("m", time, np.zeros(11), np.zeros(11))
+    other = ComparedColumn("m", time, apart, errors)
+    largest = next(row for row in compared("x", reference, other).rows if row.measure == "largest")
+    assert (largest.time, largest.difference, largest.error) == (time[7], 5e-3, 1e-2)
+    assert largest.verdict == "differs"
+    assert f"at {time[2]:g} s" in largest.reason
