@@ -104,7 +104,7 @@ def test_the_answer_is_that_of_the_page(folder: Path) -> None:
     assert 1e3 * moved[1] == pytest.approx(up, abs=up_error)
     printed = (folder / "compare.out").read_text(encoding="utf-8")
     row = next(line.split() for line in printed.splitlines() if line.strip().startswith("tip.x"))
-    assert float(row[3]) == pytest.approx(-back, abs=back_error)
+    assert float(row[5]) == pytest.approx(-back, abs=back_error)
 
 
 @pytest.mark.slow  # the runs of the page take half a minute
