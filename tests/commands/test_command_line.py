@@ -147,6 +147,6 @@ def test_the_command_line_itself_imports_no_library_and_no_command(words: list[s
 @pytest.mark.parametrize("more", [[], ["--json"], ["*.force"]], ids=" ".join)
 def test_a_run_is_shown_without_engine_compiler_and_figures(run: Path, more: list[str]) -> None:
     packages, commands = imported_by("show", str(run), *more)
-    assert packages & HEAVY == set()
+    assert packages & HEAVY <= {"scipy"}  # which finds the start posture of a four-bar
     assert packages >= BASIC
     assert commands & MODULES == {"show"}

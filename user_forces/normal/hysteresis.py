@@ -115,20 +115,27 @@ def without_damping_speed(given: Mapping[str, Any]) -> Mapping[str, Any]:
 def delivered_restitution(damping_factor: float) -> float:
     """Restitution e that a free impact delivers for a damping factor chi >= 0.
 
-    It is the root of chi (1 + e) = ln((1 + chi)/(1 - chi e)); see `Hysteresis`.
+        e = (1 + W0(-(1 + chi) exp(-(1 + chi)))) / chi,   W0 Lambert's function
+
+    which is the root of chi (1 + e) = ln((1 + chi)/(1 - chi e)); see `Hysteresis`.
     """
+    from scipy.special import lambertw  # a third of what importing this package takes
+
     chi = damping_factor
     if chi < 1e-5:  # the next term is smaller than 1e-10
         return 1.0 - 2.0 / 3.0 * chi
-    if chi < 1.0:
-        return bracketed_root(lambda e: _imbalance(chi, e), 0.0, 1.0, xtol=1e-16)
-    return bracketed_root(lambda e: _excess(chi, e), 0.0, (1.0 + 1e-15) / chi, xtol=1e-18)
+    argument = -(1.0 + chi) * math.exp(-(1.0 + chi))
+    found = (1.0 + float(lambertw(argument).real)) / chi
+    if chi < 1.0:  # Lambert's function loses half of its digits where its branches meet, at small chi
+        found -= _imbalance(chi, found) * (1.0 - chi * found) / (chi * chi * found)
+    return found
 
 
 def exact_damping_factor(restitution: float) -> float:
     """Damping factor chi in [0, 1/e] with which a free impact delivers the restitution e, 0 < e <= 1.
 
-    The inverse of `delivered_restitution`.
+    The inverse of `delivered_restitution`: the root of chi e - 1 + (1 + chi) exp(-chi (1 + e)), by Brent's
+    method.
     """
     e = restitution
     if e > 1.0 - 1e-5:  # what is left out changes the restitution by less than 1e-10
@@ -137,12 +144,11 @@ def exact_damping_factor(restitution: float) -> float:
         # chi = 0 is a root too, so look above the first-order value 3/2 (1 - e), which is always smaller
         low, high = 1.4 * (1.0 - e), 3.0 * (1.0 - e)
         return bracketed_root(lambda chi: _imbalance(chi, e), low, high, xtol=1e-15, rtol=1e-14)
-    return bracketed_root(lambda chi: _excess(chi, e), 1.0, (1.0 + 1e-15) / e, xtol=1e-15, rtol=1e-14)
 
+    def imbalance(chi: float) -> float:
+        return chi * e - 1.0 + (1.0 + chi) * math.exp(-chi * (1.0 + e))
 
-def _excess(chi: float, e: float) -> float:
-    """chi e - 1 + (1 + chi) exp(-chi (1 + e)), zero where `_imbalance` is, and smooth where chi e is near 1."""
-    return chi * e - 1.0 + (1.0 + chi) * math.exp(-chi * (1.0 + e))
+    return bracketed_root(imbalance, 1.0, (1.0 + 1e-15) / e, xtol=1e-15, rtol=1e-14)
 
 
 def _imbalance(chi: float, e: float) -> float:
