@@ -21,7 +21,7 @@ from support_exudyn.commands.command_line import (
     new_app,
     warn,
 )
-from support_exudyn.scene.contract import told
+from support_exudyn.scene.contract import error_text
 from support_exudyn.simulation.at_start import INSTALLED, be_interruptible
 from user_forces.values.texts import InputError
 
@@ -127,7 +127,7 @@ def _launch(
     except Exception as error:
         if not imports or isinstance(error, (*mendable(), MemoryError)):
             raise
-        raise InputError(f"{', '.join(f'--import {name}' for name in imports)}: {told(error)}") from error
+        raise InputError(f"{', '.join(f'--import {name}' for name in imports)}: {error_text(error)}") from error
     return code
 
 

@@ -11,7 +11,7 @@ from typing import Annotated, Any
 from cyclopts import App, CycloptsError, Parameter
 from cyclopts.validators import Number
 
-from support_exudyn.scene.contract import Progress, SimulationError, told
+from support_exudyn.scene.contract import Progress, SimulationError, error_text
 from support_exudyn.simulation.at_start import EXIT_CODE, INTERRUPTED, be_readable
 from user_forces.values.texts import InputError, cleaned
 
@@ -213,7 +213,7 @@ def answered(work: Callable[[], int | None], refused: int = 1) -> int:
         warn(f"error: {line if len(line) <= LONGEST_LINE else line[: LONGEST_LINE - 3] + '...'}")
         return WRONG_USAGE
     except MemoryError as error:
-        warn(f"error: {told(error)}; allowed: fewer records or channels, a smaller file")
+        warn(f"error: {error_text(error)}; allowed: fewer records or channels, a smaller file")
     except mendable() as error:
         warn(f"error: {_sentence(error)}")
     return refused

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from support_exudyn.files.own_modules import NotImported, with_known_laws
-from support_exudyn.postprocessing.figures.units import said
+from support_exudyn.postprocessing.figures.units import amount
 from support_exudyn.scenario.pin_pressure import PressedPin, pressed_pin
 from support_exudyn.scenario.pin_stability import PinOutlook
 from support_exudyn.scenario.scenario import Scenario
@@ -95,11 +95,11 @@ def pressure_table(title: str, pins: Sequence[PressedPin]) -> ResultTable:
         kind = "length unknown" if one.length is None else "beyond the theory"
         rows.append((
             one.name,
-            said(one.force, "N", DIGITS),
-            "" if pressure is None else said(pressure, "Pa", DIGITS),
+            amount(one.force, "N", DIGITS),
+            "" if pressure is None else amount(pressure, "Pa", DIGITS),
             "" if data["share_of_first_yield"] is None else f"{100.0 * one.yield_share:.{DIGITS}g} %",
             "" if angle is None else f"{math.degrees(angle):.{DIGITS}g}°",
-            "" if data["depth_m"] is None else said(one.depth, "m", DIGITS),
+            "" if data["depth_m"] is None else amount(one.depth, "m", DIGITS),
             "" if stiffness is None else f"{stiffness / 1e9:.{DIGITS}g} MN/mm",
             kind if one.line is None else "conformal" if one.line.conformal else "line",
         ))  # fmt: skip
@@ -150,7 +150,7 @@ def stability_table(outlooks: Sequence[PinOutlook]) -> ResultTable:
             pin,
             "vibrates" if vibrates else "stable" if one.stable else "in part nowhere at rest",
             f"{growth:.{DIGITS}g} /s",
-            said(data["frequency_Hz"], "Hz", DIGITS) if data["frequency_Hz"] else "none",
+            amount(data["frequency_Hz"], "Hz", DIGITS) if data["frequency_Hz"] else "none",
             f"{math.degrees(data['travel']):.0f} deg" if one.turns else f"{1e3 * data['travel']:.0f} mm",
             f"{data['friction']:.{DIGITS}g}",
             "none up to 1" if critical is None else f"{critical:.{DIGITS}g}",
@@ -201,7 +201,7 @@ def leg_table(result: Result, after: float = 0.0, until: float = float("inf")) -
                 begun.setdefault(event.what, []).append(event.time)
         for what, times in begun.items():
             cavity = f"cavity in the {what.removesuffix(FILLED).strip()}" if what.endswith(FILLED) else what
-            rows.append((name, cavity, str(len(times)), said(times[0], "s", 6), said(times[-1], "s", 6)))
+            rows.append((name, cavity, str(len(times)), amount(times[0], "s", 6), amount(times[-1], "s", 6)))
         if not begun:
             rows.append((name, "nothing opened, boiled or met a stop", "", "", ""))
     return ResultTable("hydraulic legs", ("leg", "what", ">times", ">first", ">last"), rows)

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Mapping, Sequence
 
-from support_exudyn.postprocessing.figures.units import readable, said
+from support_exudyn.postprocessing.figures.units import amount, readable
 from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.impulses import NO_PEAK
 from support_exudyn.simulation.reported_numbers import FORCE, measures
@@ -58,8 +58,8 @@ def ranking(found: Mapping[str, Estimate]) -> str:
     hits = []
     for joint in hardest_first(found):
         force, when = found[f"{joint}{LARGEST}"], found.get(f"{joint}{LARGEST_TIME}")
-        at = f" at {said(when.value, 's', 4)}" if when else ""
-        hits.append(f"{joint.removeprefix('pin.')}, {said(force.value, force.unit, 4)}{at}")
+        at = f" at {amount(when.value, 's', 4)}" if when else ""
+        hits.append(f"{joint.removeprefix('pin.')}, {amount(force.value, force.unit, 4)}{at}")
     return f"hits hardest: {hits[0]}; then {'; '.join(hits[1:])}" if len(hits) > 1 else ""
 
 

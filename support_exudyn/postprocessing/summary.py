@@ -10,7 +10,7 @@ from support_exudyn.formulations.registry import CHEAPEST_FIRST, FORMULATIONS, F
 from support_exudyn.machines.check.freedoms import shared
 from support_exudyn.model.pins import ClearancePin, Pin
 from support_exudyn.postprocessing.figures import selection
-from support_exudyn.postprocessing.figures.units import readable, said
+from support_exudyn.postprocessing.figures.units import amount, readable
 from support_exudyn.postprocessing.joint_tables import (
     LARGEST as AT_LARGEST,
 )
@@ -84,7 +84,7 @@ def numbers_table(result: Result, ends: tuple[float, float] = WHOLE, only: Seque
     known = (
         "± estimated numerical error" if result.coarser else "numerical errors not known: no accuracy was asked"
     )
-    title = f"{'numbers' if only else 'what came out'}, {selection.said(result, *ends)} ({known})"
+    title = f"{'numbers' if only else 'what came out'}, {selection.window_text(result, *ends)} ({known})"
     return ResultTable(title, header, rows, "" if only else ranking(found))
 
 
@@ -111,10 +111,10 @@ def impacts_table(
             lasts = "to the next impact" if n + 1 < len(onsets) else "to the end"
             force = force_of_impact(result, pin, n)
             rows.append((
-                pin, f"{n + 1} of {len(onsets)}", said(onset.time, "s", 6),
-                said(onset.separation_time - onset.time, "s", 4) if separated else lasts,
-                said(onset.speed, "m/s", 5), said(onset.separation_velocity, "m/s", 5) if separated else "",
-                "" if force is None else said(force, "N", 4),
+                pin, f"{n + 1} of {len(onsets)}", amount(onset.time, "s", 6),
+                amount(onset.separation_time - onset.time, "s", 4) if separated else lasts,
+                amount(onset.speed, "m/s", 5), amount(onset.separation_velocity, "m/s", 5) if separated else "",
+                "" if force is None else amount(force, "N", 4),
             ))  # fmt: skip
     header = ("pin", "impact", ">time", ">lasts", ">approach", ">separation", ">force")
     return ResultTable(
@@ -143,10 +143,12 @@ def channels_table(
         if impulses_of(result, name, *ends):
             least = greatest = "impulse"  # which has no finite peak
         rows.append((name, unit.name, least, mean, greatest, found["meaning"]))
-    steps = "every step" if result.statistics else f"records every {said(result.scenario.recorded_every, 's')}"
+    steps = (
+        "every step" if result.statistics else f"records every {amount(result.scenario.recorded_every, 's')}"
+    )
     more = f" ({rest} more: --all)" if rest else ""
     header = ("channel", "unit", ">min", ">mean", ">max", "meaning")
-    return ResultTable(f"channels from {steps}, {selection.said(result, *ends)}{more}", header, rows)
+    return ResultTable(f"channels from {steps}, {selection.window_text(result, *ends)}{more}", header, rows)
 
 
 def in_short(result: Result) -> list[Row]:
@@ -254,7 +256,7 @@ def what_is_run(scenario: Scenario) -> list[Row]:
     space = "in the plane" if scenario.dimensions == 2 else "in space"
     rows: list[Row] = [
         ("machine", f"{type(scenario.machine).__name__}, {space}"),
-        ("duration", f"{scenario.duration:g} s, recorded every {said(scenario.recorded_every, 's')}"),
+        ("duration", f"{scenario.duration:g} s, recorded every {amount(scenario.recorded_every, 's')}"),
         ("start", f"{scenario.start}, gravity {scenario.gravity[0]:g}, {scenario.gravity[1]:g} m/s²"),
     ]
     others = [name for name in scenario.linkage.pins if name not in scenario.pins]
@@ -285,7 +287,7 @@ def how(result: Result) -> list[Row]:
         cost = " (all runs of the error estimate)"
     steps = f"tolerance {scenario.solver.tolerance:g}"
     if not scenario.chooses_steps:
-        steps = f"steps of {said(scenario.step, 's')} and less, {scenario.solver.impact_steps} to an impact"
+        steps = f"steps of {amount(scenario.step, 's')} and less, {scenario.solver.impact_steps} to an impact"
     counts = dataclasses.asdict(result.counts).items()
     versions = [f"{name} {result.provenance[name]}" for name in VERSIONS if name in result.provenance]
     undetermined = shared(scenario.held) if scenario.dimensions == 2 else ()
@@ -296,7 +298,7 @@ def how(result: Result) -> list[Row]:
         ("accuracy", accuracy),
         *(("not determined", sentence) for sentence in undetermined),
         ("counts", ", ".join(f"{count} {name.replace('_', ' ')}" for name, count in counts if count)),
-        ("wall time", said(result.wall_time, "s") + cost),
+        ("wall time", amount(result.wall_time, "s") + cost),
         ("made", f"{result.provenance.get('made_at', 'at a time unknown')} with {', '.join(versions)}"),
     ]
     return [row for row in rows if row[1] or row[0] == "counts"]
@@ -315,8 +317,8 @@ def unmet(result: Result) -> str:
     determined = ""
     if math.isfinite(result.horizon):
         determined = (
-            f"Up to {said(result.horizon, 's')}, {agreed(result)} impacts, runs with shorter steps agree; what "
-            "comes later depends on the steps. "
+            f"Up to {amount(result.horizon, 's')}, {agreed(result)} impacts, runs with shorter steps agree; "
+            "what comes later depends on the steps. "
         )
     return (
         f"accuracy {result.goal:g}: NOT met, {error:.1g} is estimated; shorter steps did not help. "

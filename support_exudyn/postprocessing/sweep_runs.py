@@ -68,12 +68,12 @@ class SweepRuns:
     @cached_property
     def numbers(self) -> dict[str, str]:
         """The columns of numbers by their names without units; the time that runs took is none of these."""
-        from support_exudyn.sweeps.table import with_unit  # and pyarrow
+        from support_exudyn.sweeps.table import amount  # and pyarrow
 
         first = self.table.column_names.index(WALL_TIME)
         columns = [name for name in self.table.column_names[first + 1 :] if not name.endswith("_error")]
         units = {name: self._about(name).get("unit", "") for name in columns}
-        return {name.removesuffix(with_unit("", unit)) if unit else name: name for name, unit in units.items()}
+        return {name.removesuffix(amount("", unit)) if unit else name: name for name, unit in units.items()}
 
     def number(self, name: str) -> SweepNumber:
         """A number by its name, with its unit or without. Raises InputError if there is none."""

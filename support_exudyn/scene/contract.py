@@ -41,7 +41,7 @@ class SimulationError(RuntimeError):
         return SimulationError, (self.failure,)  # so that it comes back whole from a worker process
 
 
-def told(error: BaseException) -> str:
+def error_text(error: BaseException) -> str:
     """An error that nobody expected, in a line: its kind, its words, and where, if that is no file of ours."""
     frames = traceback.extract_tb(error.__traceback__)[-1:]
     ours = [frame for frame in frames if Path(frame.filename).is_relative_to(Path(__file__).parents[1])]

@@ -6,7 +6,7 @@ from typing import Literal, overload
 
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scenario.scenario_data import Accuracy
-from support_exudyn.scene.contract import Failure, Progress, SimulationError, silent, told
+from support_exudyn.scene.contract import Failure, Progress, SimulationError, error_text, silent
 from support_exudyn.simulation.automatic_settings import covered
 from support_exudyn.simulation.halved_steps import run_halving_steps
 from support_exudyn.simulation.provenance import FORMULATION_ASKED
@@ -89,7 +89,7 @@ def _run(run: Callable[[Scenario, Progress], Result], scenario: Scenario, progre
         asked = {FORMULATION_ASKED: scenario.formulation}  # of "auto" it is told why which one ran
         return replace(result, provenance={**result.provenance, **asked})
     except SystemExit as error:  # it would end the program without a word, and perhaps as if all was done
-        raise SimulationError(Failure(f"the program was asked to end: {told(error)}", OWN, 0.0)) from None
+        raise SimulationError(Failure(f"the program was asked to end: {error_text(error)}", OWN, 0.0)) from None
 
 
 def look_at_laws(scenario: Scenario) -> None:

@@ -129,7 +129,7 @@ def open_run(plan: Plan, name: str, out: str | Path | None = None) -> Result:
     Arguments:
         plan: of the sweep.
         name: of the run in the table, such as "run_07".
-        out: folder of the store; by default NAME_sweep beside the sweep's file.
+        out: folder of the store; by default NAME_sweep next to the sweep's file.
 
     Raises InputError if there is no such run, or if it cannot be run; SimulationError if it fails.
     """

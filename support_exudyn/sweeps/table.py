@@ -88,7 +88,7 @@ class SweepTable:
         taken = pa.array(self._wall_times, mask=np.isnan(self._wall_times))
         add("wall_time_s", taken, "s", MEANINGS["wall_time_s"])
         for name, column in sorted(self._columns.items(), key=lambda item: item[1].rank):
-            title = with_unit(name, column.unit)
+            title = amount(name, column.unit)
             add(title, pa.array(column.values, mask=~column.there), column.unit, f"{name} of the run")
             if not np.isnan(column.errors).all():
                 errors = pa.array(column.errors, mask=np.isnan(column.errors))
@@ -111,7 +111,7 @@ class SweepTable:
         return folder / FILE
 
 
-def with_unit(name: str, unit: str) -> str:
+def amount(name: str, unit: str) -> str:
     """Title of a column: `pin.rear_base.force.mean_N`."""
     for letter, word in UNIT_WORDS.items():
         unit = unit.replace(letter, word)

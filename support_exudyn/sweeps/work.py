@@ -13,7 +13,7 @@ from support_exudyn.files.whole_file import workshop
 from support_exudyn.formulations.registry import formulation
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scenario.timescales import rounded
-from support_exudyn.scene.contract import Failure, Progress, SimulationError, silent, told
+from support_exudyn.scene.contract import Failure, Progress, SimulationError, error_text, silent
 from support_exudyn.simulation.automatic_settings import covered, settings_for
 from support_exudyn.simulation.result import Result, with_digest
 from support_exudyn.simulation.simulate import simulate
@@ -109,7 +109,7 @@ def computed(task: Task, progress: Progress = silent) -> tuple[StoredRun, Result
 def reason_of(error: BaseException) -> str:
     """Why there is no run, in a line."""
     expected = isinstance(error, (SimulationError, InputError))
-    return cleaned(" ".join(str(error).split()) if expected else told(error))
+    return cleaned(" ".join(str(error).split()) if expected else error_text(error))
 
 
 def row_of(task: Task, result: Result) -> StoredRun:
@@ -271,7 +271,7 @@ def refused(error: Exception) -> StoredRun:
 
 # --- a few runs whose results stay in memory ---
 
-Shares = Callable[[Mapping[str, float]], None]  # is told the share done of every run, by name
+Shares = Callable[[Mapping[str, float]], None]  # receives the share done of every run, by name
 
 ADVICE = (
     "Look at the memory that the run takes: it is less with fewer channels or records. Run fewer side by side, "
@@ -312,7 +312,7 @@ def run_all(
     chosen = list(scenarios.values())
     jobs = [(scenario, (files or {}).get(name)) for name, scenario in scenarios.items()]
 
-    def told(shares: list[float]) -> None:
+    def error_text(shares: list[float]) -> None:
         progress(dict(zip(scenarios, shares, strict=True)))
 
     def ended(error: ProcessEndedError) -> Failure:
@@ -320,5 +320,5 @@ def run_all(
 
     number = workers if isinstance(workers, Workers) else min(workers, len(scenarios))
     with worker_pool(number) as pool:
-        results = pool.run(jobs, _run, told, ended)
+        results = pool.run(jobs, _run, error_text, ended)
     return dict(zip(scenarios, results, strict=True))

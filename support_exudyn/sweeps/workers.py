@@ -2,7 +2,7 @@
 
 Each is a pool of `concurrent.futures` of its own with one process: if that ends, killed or by a crash, no other
 loses its work, and whose work it did is known. The pools of several processes of the standard library and of
-loky are broken as a whole then and do not tell which job it was; that of pebble waits for ever for a job that
+loky are broken as a whole then and do not name the job; that of pebble waits for ever for a job that
 leaves with exit code 0.
 """
 
@@ -100,7 +100,7 @@ class Workers:
     ) -> list[T]:
         """What `work` returns for every job, in their order; they are started in that order too.
 
-        A job whose process ends is done once more when all others are done, without any other beside it.
+        A job whose process ends is done once more when all others are done, without any other at the same time.
 
         progress: receives the share done of every job ten times a second. ended: gives what to return for a job
         whose process ended again; without it the first such error is raised when all others are done.

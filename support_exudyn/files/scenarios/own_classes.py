@@ -10,7 +10,7 @@ from types import ModuleType
 from typing import Any
 
 from support_exudyn.files.own_modules import ENDING, file_of, refusal
-from support_exudyn.files.toml.faults import Faults, Place, said, said_place
+from support_exudyn.files.toml.faults import Faults, Place, place_text, quoted
 from user_forces.values.value import DEEPEST, InputError, Value, kinds_of
 
 KEYS = ("type", "law", "friction_law", "damping")  # whose texts are names of classes
@@ -39,7 +39,7 @@ def _inside(key: str, item: Any, place: Place, faults: Faults, folder: Path) -> 
     try:
         _check_class(_module(found["module"], folder, found["name"]), found["name"])
     except InputError as error:
-        faults.add((), f"{said_place(place)} = {said(item)}: {error}")
+        faults.add((), f"{place_text(place)} = {quoted(item)}: {error}")
     return found["name"]
 
 
@@ -79,5 +79,5 @@ def _check_class(module: ModuleType, name: str) -> None:
             f"allowed: a class that is made with @value and has all methods of its kind; {name} is not"
         )
     near = get_close_matches(name, known, 2, 0.4)
-    guess = f"did you mean {' or '.join(map(said, near))}? " if near else ""
+    guess = f"did you mean {' or '.join(map(quoted, near))}? " if near else ""
     raise InputError(f"{guess}allowed: classes of {module.__name__}: {', '.join(known) or 'none'}")

@@ -11,7 +11,7 @@ from typing import Any, Literal, TypeVar
 from support_exudyn.files.machines.read import SHIPPED, read_machine
 from support_exudyn.files.scenarios.drive_table import one_drive, read_drives
 from support_exudyn.files.scenarios.short_joints import ShortContact, ShortGuide, ShortPin, pin_in_machine
-from support_exudyn.files.toml.faults import Faults, Place, said
+from support_exudyn.files.toml.faults import Faults, Place, quoted
 from support_exudyn.files.toml.reading import FAILED, Reader
 from support_exudyn.files.toml.shapes import GroupShape, field_shapes
 from support_exudyn.machines.machine_data import MachineData
@@ -76,11 +76,11 @@ def read_machine_of(
         return None if found is FAILED else MachineData(found)
     if isinstance(given, (Machine, MachineData)):  # made by a program, see `simple_scenario`
         return MachineData(given) if isinstance(given, Machine) else given
-    said = f"a path that ends in .toml, one of {', '.join(SHIPPED)}, or a table [machine]"
+    quoted = f"a path that ends in .toml, one of {', '.join(SHIPPED)}, or a table [machine]"
     if given is None:
-        faults.add(("machine",), f"missing; allowed: {said}")
+        faults.add(("machine",), f"missing; allowed: {quoted}")
     else:
-        faults.wrong(("machine",), given, said)
+        faults.wrong(("machine",), given, quoted)
     return None
 
 
@@ -90,7 +90,7 @@ def _from_file(name: str, faults: Faults, folder: Path) -> MachineData | None:
         return None
     own = _own(name, folder)
     if own and name not in SHIPPED and not name.lower().endswith(".toml"):
-        faults.add((), f"machine = {said(name)}: there is none of this name; did you mean {own}?")
+        faults.add((), f"machine = {quoted(name)}: there is none of this name; did you mean {own}?")
         return None
     try:
         return read_machine(name, folder)
@@ -113,7 +113,7 @@ def _own(name: str, folder: Path) -> str:
     except OSError:
         return ""
     near = [f"{name}.toml"] if f"{name}.toml" in files else get_close_matches(name[:80], files, 1, 0.8)
-    return said(near[0]) if near else ""
+    return quoted(near[0]) if near else ""
 
 
 OF_CRANKS = (

@@ -69,9 +69,9 @@ class AdamsReading:
                         self._asked.progress(min(1.0, file.tell() / size))
         except ElementTree.ParseError as error:
             line, column = error.position
-            said = str(error).partition(":")[0]
+            phrase = str(error).partition(":")[0]
             raise InputError(
-                f"{self._path}: line {line}, column {column + 1}: {said}; allowed: the whole of an ADAMS "
+                f"{self._path}: line {line}, column {column + 1}: {phrase}; allowed: the whole of an ADAMS "
                 "result file"
             ) from None
         except (LookupError, UnicodeError) as error:
@@ -93,8 +93,8 @@ class AdamsReading:
             if event == "end" and name in ("Step", "StepMap", "Analysis"):
                 element.clear()
 
-    def _wrong(self, said: str, allowed: str) -> InputError:
-        return InputError(f"{self._path}: {said}; allowed: {allowed}")
+    def _wrong(self, phrase: str, allowed: str) -> InputError:
+        return InputError(f"{self._path}: {phrase}; allowed: {allowed}")
 
     def _chooses(self, name: str) -> bool:
         """Whether an analysis that begins is the one that is wanted."""
@@ -150,8 +150,8 @@ class AdamsReading:
         try:
             number, name = int(item.attrib["id"]), item.attrib["name"]
         except (KeyError, ValueError):
-            said = f"entity {short(entity)}: a component without a name or a number as its id"
-            raise self._wrong(said, "both") from None
+            phrase = f"entity {short(entity)}: a component without a name or a number as its id"
+            raise self._wrong(phrase, "both") from None
         unit = adams_unit(item.get("unitsValue", ""))
         if unit is None and (label := item.get("plotLabel", "").strip()):
             bare = label[:1] == "(" and label[-1:] == ")"  # such as (RPM)
@@ -177,10 +177,10 @@ class AdamsReading:
         taken = 8 * len(self.numbers)
         needed, there = taken / max(share, 1e-9), SHARE * (available() + taken)
         if needed > there:
-            said = (
+            phrase = (
                 f"{len(self.columns)} series of it take {needed / 1e9:.3g} GB, and {there / 1e9:.3g} are free"
             )
-            raise self._wrong(said, "fewer, by their names or patterns of them")
+            raise self._wrong(phrase, "fewer, by their names or patterns of them")
 
 
 def _name(element: Element) -> str:

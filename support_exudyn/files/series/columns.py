@@ -205,18 +205,18 @@ def _of_calendar(columns: Sequence[Column], units: Sequence[str | None]) -> tupl
         if unit is not None or not there.size or not (is_dated or is_called_time(column.name)):
             continue
         low, high = float(there.min()), float(there.max())
-        said, ticks = "", 0.0
+        phrase, ticks = "", 0.0
         for days, what in ((SERIAL_DAYS, "a spreadsheet's calendar"), (MATLAB_DAYS, "MATLAB's calendar")):
             if is_dated and days[0] <= low and high <= days[1]:
-                said, ticks = f"days of {what}", 1.0 / DAY
+                phrase, ticks = f"days of {what}", 1.0 / DAY
         for name, per_second in EPOCHS.items():
             if EPOCH[0] * per_second <= low and high <= EPOCH[1] * per_second:
-                said, ticks = f"{name} since 1970", per_second
-        if said:
+                phrase, ticks = f"{name} since 1970", per_second
+        if phrase:
             seconds = np.round(_from_first(column.values) / ticks, 9 if ticks >= 1.0 else 6)
             return Column(
                 column.name, "s", seconds
-            ), f"Column {column.name!r} is read as {said}, from the first."
+            ), f"Column {column.name!r} is read as {phrase}, from the first."
     return None
 
 
@@ -273,16 +273,16 @@ def series_file(
     """
     series: dict[str, NamedSeries] = {}
     known: dict[str, int] = {}
-    told, changes = [*notes], list[str]()
+    remarks, changes = [*notes], list[str]()
     for times, columns in groups:
-        time, order, said = _increasing(path, times, asked, place)
-        changes += [one for one in said if one not in changes]
+        time, order, phrase = _increasing(path, times, asked, place)
+        changes += [one for one in phrase if one not in changes]
         for column in columns:
             name = column.name
             known[name] = known.get(name, 0) + 1
             if known[name] > 1:
                 name = f"{name}#{known[name]}"
-                told.append(
+                remarks.append(
                     f"Several columns are called {column.name!r}; the later ones are {column.name}#2 and so on."
                 )
             if not asked.wants(name):
@@ -290,12 +290,12 @@ def series_file(
             values = column.values if order is None else column.values[order]
             if endless := int(np.isinf(values).sum()):
                 values = np.where(np.isinf(values), np.nan, values)
-                told.append(f"{name}: infinite values count as not known: {endless}.")
+                remarks.append(f"{name}: infinite values count as not known: {endless}.")
             series[name] = NamedSeries(name, _unit(path, column, asked), time, values)
-    told = list(dict.fromkeys(cleaned(one).strip() for one in (*told, *changes) if one.strip()))
+    remarks = list(dict.fromkeys(cleaned(one).strip() for one in (*remarks, *changes) if one.strip()))
     if not series:
-        raise InputError(" ".join((f"{path}: {_nothing(asked)}.", *told))[:-1])
-    return SeriesFile(path, kind, series, tuple(told), tuple(changes))
+        raise InputError(" ".join((f"{path}: {_nothing(asked)}.", *remarks))[:-1])
+    return SeriesFile(path, kind, series, tuple(remarks), tuple(changes))
 
 
 def _nothing(asked: Asked) -> str:
@@ -332,24 +332,24 @@ def _increasing(
         raise InputError(f"{where}: has no numbers; allowed: one or more")
     if there.all() and (np.diff(time) > 0.0).all():
         return time, None, []
-    told = []
+    remarks = []
     if missing := int((~there).sum()):
-        told.append(
+        remarks.append(
             f"Rows without a time are left out: {missing}, the first is {place(int(np.argmin(there)))}."
         )
     order = np.flatnonzero(there)
     steps = np.diff(time[order])
     if (steps < 0.0).any():
         first = place(int(order[np.argmax(steps < 0.0) + 1]))
-        told.append(f"The times of column {column.name!r} go back at {first}; rows are sorted by time.")
+        remarks.append(f"The times of column {column.name!r} go back at {first}; rows are sorted by time.")
         order = order[np.argsort(time[order], kind="stable")]
         steps = np.diff(time[order])
     last = np.append(steps > 0.0, True)
     if repeated := int((~last).sum()):
         first = place(int(order[np.argmin(last)]))
-        told.append(
+        remarks.append(
             f"Times are repeated; of rows of one time the last stays, {repeated} are left out, the first is "
             f"{first}."
         )
     order = order[last]
-    return time[order], order, told
+    return time[order], order, remarks

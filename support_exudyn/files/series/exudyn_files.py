@@ -115,8 +115,8 @@ class _Binary:
             raise self.wrong(f"numbers of {sizes[1]} and {sizes[2]} bytes", "4 or 8")
         self.whole, self.real = np.dtype(f"<i{sizes[1]}"), np.dtype(f"<f{sizes[2]}")
 
-    def wrong(self, said: str, allowed: str) -> InputError:
-        return InputError(f"{self.path}: byte {self.place}: {said}; allowed: {allowed}")
+    def wrong(self, phrase: str, allowed: str) -> InputError:
+        return InputError(f"{self.path}: byte {self.place}: {phrase}; allowed: {allowed}")
 
     def take(self, count: int) -> bytes:
         found = self.data[self.place : self.place + count]

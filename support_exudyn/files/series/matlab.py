@@ -1,6 +1,6 @@
 """Series of MATLAB files of versions 4 to 7.3, also as Simulink, Dymola and OpenModelica write them.
 
-A vector of times is called time, t, T or tout, in this order. All vectors as long as it, beside it and in
+A vector of times is called time, t, T or tout, in this order. All vectors as long as it, next to it and in
 structures without times of their own, are series; so are the columns of a matrix that has as many rows. Names
 are joined by points, `run.pin.force`. MATLAB keeps no units: a name such as `force_kN` has one, of all others
 it is asked for.
@@ -85,12 +85,12 @@ def read_matlab(path: Path, asked: Asked) -> SeriesFile:
     if not groups:
         groups = _of_rate(tree, asked.rate)
     objects = sorted({f"{name} ({kind})" for name, kind in _objects(tree, ())})
-    said = "; ".join(objects[:4])
+    phrase = "; ".join(objects[:4])
     if not groups and objects:
         raise InputError(
-            f"{path}: has nothing but objects of MATLAB, which only MATLAB reads: {said}; allowed: arrays, as "
-            "by t = ts.Time; y = ts.Data; save('file.mat', 't', 'y'), or Simulink's format Array or Structure "
-            "With Time"
+            f"{path}: has nothing but objects of MATLAB, which only MATLAB reads: {phrase}; allowed: "
+            "arrays, as by t = ts.Time; y = ts.Data; save('file.mat', 't', 'y'), or Simulink's format Array or "
+            "Structure With Time"
         )
     if not groups:
         names = [".".join(one) for one, _ in _arrays(tree, ())]
@@ -98,7 +98,7 @@ def read_matlab(path: Path, asked: Asked) -> SeriesFile:
             f"{path}: has no vector of times with others as long; allowed: a vector t or time beside them; its "
             f"vectors are {first_names(names) or 'none'}"
         )
-    notes = [f"Objects of MATLAB, which only MATLAB reads, are left out: {said}."] if objects else []
+    notes = [f"Objects of MATLAB, which only MATLAB reads, are left out: {phrase}."] if objects else []
     return series_file(path, "MATLAB file", groups, asked, notes)
 
 
@@ -214,7 +214,7 @@ def _of_modelica(path: Path, tree: Tree, asked: Asked) -> SeriesFile:
     """The variables of a simulation in Modelica; parameters, which do not change, are series of two points."""
     form = [str(one).strip() for one in np.atleast_1d(tree["Aclass"])]
     is_transposed = len(form) > 3 and "trans" in form[3].casefold()
-    names, told = (_words(tree.get(key, ()), is_transposed) for key in ("name", "description"))
+    names, remarks = (_words(tree.get(key, ()), is_transposed) for key in ("name", "description"))
     info = np.asarray(tree["dataInfo"]).astype(int)
     info = info if is_transposed else info.T
     data = {
@@ -228,7 +228,7 @@ def _of_modelica(path: Path, tree: Tree, asked: Asked) -> SeriesFile:
     for n, name in enumerate(names):
         matrix, place = int(info[0, n]), int(info[1, n])
         if matrix in data and place and abs(place) > 1:
-            unit = UNIT.search(told[n]) if n < len(told) else None
+            unit = UNIT.search(remarks[n]) if n < len(remarks) else None
             values = np.sign(place) * data[matrix][abs(place) - 1]
             columns[matrix].append(Column(name, read_unit(unit[1])[0] if unit else None, values))
     return series_file(

@@ -36,7 +36,7 @@ class SeriesFile:
     series: by their names.
     notes: what a reader of the numbers has to know, a sentence each: rows that were sorted, times that were
         repeated, the analysis that was taken of several.
-    changes: those of the notes that tell of rows that were left out or sorted.
+    changes: the notes on rows that were left out or sorted.
     """
 
     path: Path

@@ -183,5 +183,5 @@ def _order(
         return orders[0], ""
     month_first = american if falls[0] == falls[1] else falls[1] < falls[0]
     month_first = month_first or (falls[0] == falls[1] and spans[1] < spans[0])
-    said = "month before the day" if month_first else "day before the month"
-    return orders[int(month_first)], f"Column {name!r}: dates are read with the {said}."
+    phrase = "month before the day" if month_first else "day before the month"
+    return orders[int(month_first)], f"Column {name!r}: dates are read with the {phrase}."

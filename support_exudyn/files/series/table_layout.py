@@ -207,7 +207,7 @@ def _are_channels(rows: Sequence[tuple[int, list[str]]], kinds: Sequence[str]) -
 
 
 def _check_groups(path: Path, rows: Sequence[Sequence[str]], kinds: Sequence[str], decimal: str) -> None:
-    """Raise InputError if signs may stand between thousands or before decimals, and no number tells."""
+    """Raise InputError if signs may stand between thousands or before decimals, and no number decides."""
     found = [
         row[n] for row in rows if len(row) == len(kinds) for n, kind in enumerate(kinds) if kind == "number"
     ]
@@ -221,5 +221,5 @@ def _check_groups(path: Path, rows: Sequence[Sequence[str]], kinds: Sequence[str
         part = in_doubt[0].replace(",", ".")
         raise InputError(
             f"{path}: {in_doubt[0]!r} may be {digits} or {part}; allowed: decimals with a point, or at least "
-            "one number that tells what the sign is, such as 0,5"
+            "a number that decides what the sign is, such as 0,5"
         )

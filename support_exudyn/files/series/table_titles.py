@@ -18,30 +18,13 @@ BLANKS = " "  # any number of blanks and tabs
 SEPARATORS = ("\t", ";", ",", "|", BLANKS)
 COMMENTS = {one: r"[ \t]*(#|%|!|//)" if one == ";" else r"[ \t]*(#|%|!|//|;)" for one in SEPARATORS}
 MISSING = {  # items that are no numbers, in small letters
-    *(
-        "",
-        "nan",
-        "-nan",
-        "na",
-        "n/a",
-        "#n/a",
-        "#nv",
-        "nv",
-        "null",
-        "none",
-        "nil",
-        "nat",
-        "-",
-        "--",
-        "---",
-        "?",
-        "*",
-    ),
-    *("#value!", "#div/0!", "#ref!", "#num!", "#name?", "missing", "no data", "n.a.", "k.a.", "---.-", "--.--"),
+    *("", "nan", "-nan", "na", "n/a", "#n/a", "#nv", "nv", "null", "none", "nil", "nat", "-", "--", "---", "?"),
+    *("*", "#value!", "#div/0!", "#ref!", "#num!", "#name?", "missing", "no data", "n.a.", "k.a.", "---.-"),
+    "--.--",
 }
 NOTHING = r"[+-]?(1[.,]#(QNAN|SNAN|IND|INF)0*|nan\(ind\)|nan\(snan\))"  # as Microsoft's compilers write them
 ITEMS = re.compile(r'"[^"]*"|\S+')  # that blanks separate
-SIGNS = " '\u00a0\u202f"  # that stand between thousands, beside a comma or a point
+SIGNS = " '\u00a0\u202f"  # between thousands, as a comma or a point may be
 NUMBERS = {  # by what the decimals are behind
     point: rf"[+-]?([0-9]+{dot}?[0-9]*|{dot}[0-9]+|[0-9]{{1,3}}([{other}{SIGNS}][0-9]{{3}})+({dot}[0-9]*)?)"
     r"([eEdD][+-]?[0-9]+)?"
@@ -78,7 +61,7 @@ def kind_of(item: str, decimal: str) -> str:
 
 
 class Titles:
-    """The titles of a table's columns, from the lines above its rows; notes tell what was assumed."""
+    """The titles of a table's columns, from the lines above its rows; notes report what was assumed."""
 
     def __init__(self, path: Path, separator: str, decimal: str, width: int) -> None:
         self._path, self._separator, self._decimal, self._width = path, separator, decimal, width
@@ -142,9 +125,9 @@ class Titles:
             if self._separator == ","
             else ""
         )
-        said = {"\t": "tabs", BLANKS: "blanks", ",": "commas"}.get(self._separator, repr(self._separator))
+        phrase = {"\t": "tabs", BLANKS: "blanks", ",": "commas"}.get(self._separator, repr(self._separator))
         raise InputError(
-            f"{self._path}: line {number + 1}: has {len(found)} titles, separated by {said}, above rows of "
+            f"{self._path}: line {number + 1}: has {len(found)} titles, separated by {phrase}, above rows of "
             f"{self._width} items; allowed: as many titles as items{more}"
         )
 
@@ -218,10 +201,10 @@ def stated_intervals(lines: Sequence[str]) -> dict[str, float]:
             number = match["number"]
             is_thousands = usual == "Hz" and re.fullmatch(r"[1-9][0-9]{0,2},[0-9]{3}", number)
             value = float(number.replace(",", "" if is_thousands else "."))
-            said = (match["before"] or match["unit"] or usual).strip(" .")
-            unit = read_unit(said, of_time=usual == "s")[0] or usual
-            if PER_SECOND.fullmatch(said):
-                unit, value = "Hz", value * {"k": 1e3, "M": 1e6}.get(said[0], 1.0)
+            phrase = (match["before"] or match["unit"] or usual).strip(" .")
+            unit = read_unit(phrase, of_time=usual == "s")[0] or usual
+            if PER_SECOND.fullmatch(phrase):
+                unit, value = "Hz", value * {"k": 1e3, "M": 1e6}.get(phrase[0], 1.0)
             try:
                 known = float(scaled(np.array([value]), unit, usual, "")[0])
             except InputError:

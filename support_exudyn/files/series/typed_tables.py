@@ -117,9 +117,9 @@ def _series(path: Path, kind: str, read: Any, asked: Asked) -> SeriesFile:
     except InputError:
         raise
     except (pa.ArrowException, *DAMAGES) as error:
-        said = cleaned(str(error)).partition("\n")[0][:200]
+        phrase = cleaned(str(error)).partition("\n")[0][:200]
         raise InputError(
-            f"{path}: is no whole {kind} ({said}); allowed: columns of numbers, and times"
+            f"{path}: is no whole {kind} ({phrase}); allowed: columns of numbers, and times"
         ) from None
     return table_series(table, asked)
 
@@ -145,9 +145,9 @@ def _of_arrow(path: Path, kind: str, table: Any) -> Table:
     for field, values in zip(table.schema, table.columns, strict=True):
         name, unit, note = split_title(field.name)
         metadata = field.metadata or {}
-        said = next((metadata[key].decode("utf-8", "replace") for key in UNIT if key in metadata), "")
-        if said and (known := read_unit(said)[0]) is not None:
-            name, unit, note = field.name if unit is None else name, known, read_unit(said)[1]
+        phrase = next((metadata[key].decode("utf-8", "replace") for key in UNIT if key in metadata), "")
+        if phrase and (known := read_unit(phrase)[0]) is not None:
+            name, unit, note = field.name if unit is None else name, known, read_unit(phrase)[1]
         if _is_number(field.type) or pa.types.is_null(field.type):
             numbers = values.cast(pa.float64(), safe=False)
             columns.append(Column(name, unit, np.asarray(numbers.to_numpy(), dtype=np.float64)))
@@ -213,8 +213,8 @@ def read_workbook(path: Path, asked: Asked) -> SeriesFile:
         )
         sheets = {one.title: one for one in book.worksheets}
     except Exception as error:  # of many kinds, by the archive, its XML and openpyxl
-        said = " ".join(cleaned(str(error)).split())[:200]
-        raise InputError(f"{path}: is no workbook that can be read ({said}); allowed: .xlsx") from None
+        phrase = " ".join(cleaned(str(error)).split())[:200]
+        raise InputError(f"{path}: is no workbook that can be read ({phrase}); allowed: .xlsx") from None
     if asked.sheet is not None and asked.sheet not in sheets:
         raise InputError(f"{path}: has no sheet {short(asked.sheet)}; allowed: {first_names(sheets)}")
     refused: list[InputError] = []
@@ -227,13 +227,14 @@ def read_workbook(path: Path, asked: Asked) -> SeriesFile:
         others = [one for one in sheets if one != name]
         note = f"Of {len(sheets)} sheets {name!r} is read; others are {first_names(others)}." if others else ""
         return SeriesFile(path, "workbook", found.series, (*filter(None, [note]), *found.notes))
-    said = (
+    phrase = (
         str(refused[0]).removeprefix(f"{path}: ")
         if len(refused) == 1
         else "no sheet has a table of numbers over time"
     )
     raise InputError(
-        f"{path}: {said}" + ("" if "allowed" in said else f"; allowed: one of {first_names(sheets)} with it")
+        f"{path}: {phrase}"
+        + ("" if "allowed" in phrase else f"; allowed: one of {first_names(sheets)} with it")
     )
 
 
@@ -242,9 +243,9 @@ def _of_sheet(path: Path, sheet: Any) -> Table:
     try:
         lines = ["\t".join(map(_cell, row)) for row in sheet.iter_rows(values_only=True)]
     except Exception as error:  # of many kinds, by the archive and its XML
-        said = " ".join(cleaned(str(error)).split())[:200]
+        phrase = " ".join(cleaned(str(error)).split())[:200]
         raise InputError(
-            f"{path}: sheet {sheet.title!r} cannot be read ({said}); allowed: a whole one"
+            f"{path}: sheet {sheet.title!r} cannot be read ({phrase}); allowed: a whole one"
         ) from None
     width = max((len(line.rstrip("\t").split("\t")) for line in lines), default=1)
     empty = min((len(line) - len(line.lstrip("\t")) for line in lines if line.strip("\t")), default=0)

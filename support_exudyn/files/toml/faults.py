@@ -31,12 +31,14 @@ class Faults:
 
     def add(self, place: Place, text: str) -> None:
         """Note what is said of a place."""
-        self.lines.append(": ".join(filter(None, (self.where, said_place(place), text))))
+        self.lines.append(": ".join(filter(None, (self.where, place_text(place), text))))
 
     def wrong(self, place: Place, item: Any, allowed: str) -> None:
         """Note a value that cannot be used."""
-        key = said_place(place)
-        self.lines.append(": ".join(filter(None, (self.where, f"{key} = {said(item)}", f"allowed: {allowed}"))))
+        key = place_text(place)
+        self.lines.append(
+            ": ".join(filter(None, (self.where, f"{key} = {quoted(item)}", f"allowed: {allowed}")))
+        )
 
     def check(self) -> None:
         """Raise InputError if anything was added."""
@@ -54,17 +56,17 @@ def nearest(word: str, known: Collection[str]) -> str:
     return f"{guess}allowed: {', '.join(known) or 'none'}"
 
 
-def said_place(place: Place) -> str:
+def place_text(place: Place) -> str:
     """Keys as TOML joins them."""
     return ".".join(map(step, place))
 
 
 def dotted_key(place: Place) -> str:
     """Keys as a sweep joins them: those of lists are the numbers of their items, from 0."""
-    return re.sub(r"\[(\d+)\]", r".\1", said_place(place))
+    return re.sub(r"\[(\d+)\]", r".\1", place_text(place))
 
 
-def said(item: Any, level: int = 0) -> str:
+def quoted(item: Any, level: int = 0) -> str:
     """A value as it is written in TOML, cut to fit a line."""
     if isinstance(item, bool):
         text = str(item).lower()
@@ -73,7 +75,7 @@ def said(item: Any, level: int = 0) -> str:
     elif isinstance(item, Mapping):
         text = "a table"
     elif isinstance(item, list):
-        text = f"[{', '.join(said(one, level + 1) for one in item[:LONGEST])}]" if level < NESTED else "[...]"
+        text = f"[{', '.join(quoted(one, level + 1) for one in item[:LONGEST])}]" if level < NESTED else "[...]"
     else:
         text = short(item)
     return text if len(text) <= LONGEST else text[: LONGEST - 3] + "..."

@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 
 from pydantic import ValidationError
 
-from support_exudyn.files.toml.faults import Faults, Place, dotted_key, nearest, said, said_place
+from support_exudyn.files.toml.faults import Faults, Place, dotted_key, nearest, place_text, quoted
 from support_exudyn.files.toml.shapes import (
     BOUNDS,
     SOURCED_KEYS,
@@ -171,7 +171,7 @@ class Reader:
         self, shape: Shape, item: Any, place: Place, unit: Unit | None, ending: str, error: Any = None
     ) -> None:
         """Note an item that does not fit, and what does; error: pydantic's, whose own words may be better."""
-        said_of_item = f"{said_place(place)} = {said(item)}"
+        said_of_item = f"{place_text(place)} = {quoted(item)}"
         shape = either([one for one in options(shape) if _is_of_kind(one, item)] or options(shape))
         if "names" in shape and isinstance(item, str):
             names = shape["names"]
@@ -249,9 +249,9 @@ class Reader:
         if len(self.faults.lines) == before and "from" in table:
             low, high = table["from"], table["to"]
             if low > high:
-                self.faults.wrong((*place, "from"), low, f"<= to = {said(high)}")
+                self.faults.wrong((*place, "from"), low, f"<= to = {quoted(high)}")
             elif not low <= table["value"] <= high:
-                self.faults.wrong((*place, "value"), table["value"], f"from {said(low)} to {said(high)}")
+                self.faults.wrong((*place, "value"), table["value"], f"from {quoted(low)} to {quoted(high)}")
         if len(self.faults.lines) > before:
             return FAILED
         written = {key: Decimal(str(item)) for key, item in numbers.items()}
@@ -280,7 +280,7 @@ class Reader:
             self.faults.add((*place, "type"), f"missing; allowed: {', '.join(group.kinds) or 'none'}")
         else:
             known = f"{nearest(str(name), group.kinds)}; classes of one's own: --import FILE"
-            self.faults.add((), f"{said_place((*place, 'type'))} = {said(name)}: {known}")
+            self.faults.add((), f"{place_text((*place, 'type'))} = {quoted(name)}: {known}")
         return FAILED
 
 

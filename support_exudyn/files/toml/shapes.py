@@ -22,7 +22,7 @@ from pydantic.json_schema import GenerateJsonSchema
 from pydantic_core import core_schema
 from typing_extensions import Never
 
-from support_exudyn.files.toml.faults import nearest, said
+from support_exudyn.files.toml.faults import nearest, quoted
 from user_forces.values.units import Unit
 from user_forces.values.value import GROUP, InputError, Value, is_kind_of, known_classes
 
@@ -234,7 +234,7 @@ class _Shapes(GenerateJsonSchema):
         return shape
 
     def field_title_should_be_set(self, schema: Any) -> bool:
-        """No field has a title: its key says as much."""
+        """Give no field a title: its key names it."""
         return False
 
     def function_plain_schema(self, schema: Any) -> Any:
@@ -311,11 +311,11 @@ def allowed(shape: Shape, unit: Unit | None = None, ending: str = "") -> str:
         case {"group": group}:
             return f"a table of type {', '.join(group.kinds)}" if group.kinds else "none"
         case {"enum": choices}:
-            return ", ".join(map(said, choices))
+            return ", ".join(map(quoted, choices))
         case {"const": choice}:
-            return said(choice)
+            return quoted(choice)
         case {"names": names}:
-            return ", ".join(map(said, names.options))
+            return ", ".join(map(quoted, names.options))
         case {"type": "number" | "integer" as kind}:
             limits = [(sign, shape[name]) for name, (_, sign, _) in BOUNDS.items() if name in shape]
             bounds = " and ".join(f"{sign} {scaled(limit, unit, ending)}" for sign, limit in limits)

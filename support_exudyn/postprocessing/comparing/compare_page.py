@@ -16,7 +16,7 @@ from support_exudyn.postprocessing.comparing import tables
 from support_exudyn.postprocessing.comparing.files_compared import ComparedPair, FilesCompared
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.figures.channels import Curve, draw_panels, label_values
-from support_exudyn.postprocessing.figures.units import readable, said
+from support_exudyn.postprocessing.figures.units import amount, readable
 from support_exudyn.postprocessing.page.live import of_drawing
 from support_exudyn.postprocessing.page.live_html import html
 from support_exudyn.postprocessing.page.pieces import ShownFigure, ShownTable, image, templates
@@ -118,7 +118,7 @@ def _mark(axes: Axes, pairs: list[ComparedPair], name: str) -> None:
         largest = "nothing lies before the horizon"
         if math.isfinite(channel.measures.largest):
             at = f"{channel.measures.largest_time:.4g} s"
-            largest = f"largest {said(channel.measures.largest, channel.unit)} at {at}"
+            largest = f"largest {amount(channel.measures.largest, channel.unit)} at {at}"
         verdict = f", {channel.verdict} ({channel.tolerance.text})" if channel.tolerance is not None else ""
         titles.append(f"{pair.other.name}: {largest}{verdict}")
     axes.set_title("; ".join(titles), fontsize=7)

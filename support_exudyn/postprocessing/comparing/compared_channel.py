@@ -23,7 +23,7 @@ from support_exudyn.postprocessing.comparing.measures import (
     on_common_times,
 )
 from support_exudyn.postprocessing.figures.selection import CLEARANCE
-from support_exudyn.postprocessing.figures.units import said
+from support_exudyn.postprocessing.figures.units import amount
 from support_exudyn.simulation.estimate import Estimate
 from user_forces.values.value import InputError
 
@@ -254,7 +254,7 @@ class ComparedChannel:
         """
         times, rule, apart = self.over_errors, self.tolerance, abs(row.difference)
         error = interpolation if math.isnan(row.error) else row.error
-        known = f"the numerical error of {said(error, row.unit, 2)}"
+        known = f"the numerical error of {amount(error, row.unit, 2)}"
         verdict: Verdict = "differs"
         if rule is None or rule.is_errors:
             because = f"more than {known}"
@@ -266,7 +266,7 @@ class ComparedChannel:
                     f"{because}, but less than {CERTAIN:g} times, so not certainly",
                 )
         else:
-            bound = f"the tolerance of {said(row.tolerance, row.unit, 4)} ({rule.text})"
+            bound = f"the tolerance of {amount(row.tolerance, row.unit, 4)} ({rule.text})"
             because = f"more than {bound}"
             unsure = error > row.tolerance and apart - error <= row.tolerance
             if math.isnan(apart) or not math.isfinite(error) or unsure:
@@ -280,7 +280,7 @@ class ComparedChannel:
         what = "" if row.measure == LARGEST else f"the {row.measure} is "
         reason = (
             f"{what}{row.other:.9g} {row.unit}{at}, where the reference is {row.reference:.9g}, differs by "
-            f"{said(apart, row.unit, 4)}, {because}"
+            f"{amount(apart, row.unit, 4)}, {because}"
         )
         if rule is not None and rule.unit == PERCENT and not row.tolerance:
             reason += "; the reference is constant: give an amount with its unit"

@@ -17,7 +17,7 @@ from support_exudyn.postprocessing.comparing.files_compared import ComparedPair,
 from support_exudyn.postprocessing.comparing.mapping import PERCENT
 from support_exudyn.postprocessing.comparing.measures import CONFIDENCE
 from support_exudyn.postprocessing.figures.selection import CLEARANCE
-from support_exudyn.postprocessing.figures.units import DisplayUnit, readable_change, said
+from support_exudyn.postprocessing.figures.units import DisplayUnit, amount, readable_change
 from support_exudyn.postprocessing.page.pieces import Sheet
 from support_exudyn.postprocessing.shown_numbers import to_error
 from support_exudyn.simulation.estimate import Estimate
@@ -93,11 +93,11 @@ def notes(pair: ComparedPair) -> Iterator[str]:
     for file in (pair.reference, pair.other):
         yield from (f"{file.name}: {note}" for note in file.notes)
         if file.shift and (pair.shift is None or file is pair.reference):
-            yield f"{file.name}: {said(file.shift, 's', 4)} are added to its times"
+            yield f"{file.name}: {amount(file.shift, 's', 4)} are added to its times"
     if (shift := pair.shift) is not None:
         late = "lags behind" if shift.shift > 0.0 else "is ahead of"
         yield (
-            f"{pair.other.name} {late} {pair.reference.name} by {said(abs(shift.shift), 's', 5)} in "
+            f"{pair.other.name} {late} {pair.reference.name} by {amount(abs(shift.shift), 's', 5)} in "
             f"{shift.channel} (correlation {shift.correlation:.4f}); that is taken off its times"
         )
     if math.isfinite(pair.horizon):

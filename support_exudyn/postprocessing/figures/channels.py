@@ -14,7 +14,7 @@ from matplotlib.ticker import StrMethodFormatter
 
 from support_exudyn.postprocessing.figures import style, units
 from support_exudyn.postprocessing.figures.journal import Series, clearance_joints, corners
-from support_exudyn.postprocessing.figures.selection import inside, machine_name, matching, said, spacing
+from support_exudyn.postprocessing.figures.selection import inside, machine_name, matching, spacing, window_text
 from support_exudyn.postprocessing.figures.style import caption
 from support_exudyn.postprocessing.figures.units import DisplayUnit, quantity, readable
 from support_exudyn.simulation.estimate import believed, multiple
@@ -94,7 +94,7 @@ def over_time(result: Result, channels: Sequence[str], after: float = 0.0, until
         )
     chosen = inside(result, after, until)
     time, panels = result.time[chosen], groups(result, names, chosen)
-    title = f"{machine_name(result.scenario)}, {said(result, after, until)}"
+    title = f"{machine_name(result.scenario)}, {window_text(result, after, until)}"
     drawing = style.begin(170, REST_MM + PANEL_MM * len(panels) + LINE_MM * len(names), title)
     errors = {name: error[chosen] for name in names if (error := error_over_time(result, name)) is not None}
     with_clearance = {f"pin.{pin}.force" for pin in clearance_joints(result)}
@@ -208,12 +208,12 @@ def unit_of(axes: Axes) -> str:
 
 
 def _words(result: Result, worst: dict[str, float]) -> str:
-    text = f"Records every {units.said(spacing(result), 's')}, joined by straight lines. "
+    text = f"Records every {units.amount(spacing(result), 's')}, joined by straight lines. "
     if any(result.onsets.values()):
         text += "Strokes on the time axis: impacts. "
     if not worst:
         return text + "The numerical error is not known: the run was not made to an accuracy."
-    known = [f"{name} {units.said(error, result.unit(name), 2)}" for name, error in worst.items()]
+    known = [f"{name} {units.amount(error, result.unit(name), 2)}" for name, error in worst.items()]
     more = f" and {len(known) - NAMED} more" if len(known) > NAMED else ""
     return (
         f"{text}Largest numerical error at any record, shaded where it is visible: "

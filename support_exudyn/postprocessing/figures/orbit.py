@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from support_exudyn.postprocessing.figures import style, units
 from support_exudyn.postprocessing.figures.journal import JournalPath, Series, journal, shortest_impact
-from support_exudyn.postprocessing.figures.selection import as_words, said
+from support_exudyn.postprocessing.figures.selection import as_words, window_text
 from support_exudyn.postprocessing.figures.style import caption
 from support_exudyn.postprocessing.figures.units import DisplayUnit, readable
 from support_exudyn.simulation.result import Result
@@ -39,7 +39,7 @@ def orbit(result: Result, pin: str | None = None, after: float = 0.0, until: flo
     """
     shown = journal(result, pin, after, until)
     title = f"journal orbit in {as_words(shown.pin)}, radial clearance {1e3 * shown.clearance:g} mm"
-    drawing = style.begin(170, 112, f"{title}, {said(result, after, until)}")
+    drawing = style.begin(170, 112, f"{title}, {window_text(result, after, until)}")
     grid = drawing.add_gridspec(3, 2, width_ratios=(1.15, 1.0), height_ratios=(1.0, 1.0, 0.12))
     unit = readable("m", max(shown.clearance, float(np.hypot(shown.x, shown.y).max())))
     place, depth = drawing.add_subplot(grid[:2, 0]), drawing.add_subplot(grid[0, 1])
@@ -122,7 +122,7 @@ def _draw_speeds(axes: Axes, shown: JournalPath, over_time: DisplayUnit) -> None
 def _words(result: Result, shown: JournalPath) -> str:
     """What is drawn, and what is not."""
     text = (
-        f"Drawn true to scale: {shown.time.size} records, one every {units.said(shown.spacing, 's')}, joined "
+        f"Drawn true to scale: {shown.time.size} records, one every {units.amount(shown.spacing, 's')}, joined "
         "by straight lines. "
     )
     if shown.impacts:
@@ -132,11 +132,11 @@ def _words(result: Result, shown: JournalPath) -> str:
         )
     if (shortest := shortest_impact(shown.impacts)) < 2.0 * shown.spacing:
         text += (
-            f"The shortest impact lasts {units.said(shortest, 's')}: its depth falls between the records; a "
+            f"The shortest impact lasts {units.amount(shortest, 's')}: its depth falls between the records; a "
             "smaller record_period shows it. "
         )
     if (deepest := float(shown.depth.max())) > 0.0:
-        text += f"Deepest record: {units.said(deepest, 'm')}. "
+        text += f"Deepest record: {units.amount(deepest, 'm')}. "
     if result.scenario.dimensions == 3:
         text += "In space: the middle of the journal; the depth is that where it is deepest along the pin. "
     return text.rstrip()

@@ -17,7 +17,7 @@ from support_exudyn.postprocessing.figures.channels import (
     name_curves,
     unit_of,
 )
-from support_exudyn.postprocessing.figures.selection import common_records, inside, matching, said
+from support_exudyn.postprocessing.figures.selection import common_records, inside, matching, window_text
 from support_exudyn.postprocessing.figures.units import quantity
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
@@ -66,7 +66,7 @@ def overlay(
         beyond = max(int((one.time > end).sum()) for one in series.values())
         if beyond and until >= end:
             notes.append(f"{beyond} points of {name}")
-    title = f"{_several([*runs, *curves])}, {said(next(iter(runs.values())), after, until)}"
+    title = f"{_several([*runs, *curves])}, {window_text(next(iter(runs.values())), after, until)}"
     more = f" The errors of {_several(curves)} are not known." if curves else ""
     if notes:
         more += f" {' and '.join(notes)} beyond the end of the run, {end:g} s, are not drawn."
@@ -123,7 +123,7 @@ def difference(
         raise InputError(
             f"{', '.join(runs)}: have none of these channels in common; allowed: runs of like machines"
         )
-    title = f"{_several(dict(others))} less {reference}, {said(first, after, until)}"
+    title = f"{_several(dict(others))} less {reference}, {window_text(first, after, until)}"
     return draw(runs, panels, title, "difference of ")
 
 

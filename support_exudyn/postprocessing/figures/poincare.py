@@ -13,7 +13,7 @@ from support_exudyn.model.linkage import GROUND
 from support_exudyn.postprocessing.figures import style, units
 from support_exudyn.postprocessing.figures.journal import JournalPath, Mask, Series, clearance_joints, journal
 from support_exudyn.postprocessing.figures.orbit import bore_axes
-from support_exudyn.postprocessing.figures.selection import CLEARANCE, as_words, inside, said, spacing
+from support_exudyn.postprocessing.figures.selection import CLEARANCE, as_words, inside, spacing, window_text
 from support_exudyn.postprocessing.figures.style import caption
 from support_exudyn.postprocessing.figures.units import DEGREES, DisplayUnit, readable
 from support_exudyn.scenario.scenario import Scenario
@@ -127,7 +127,7 @@ def poincare(
             f"channels of a section: {times.size} periods of the drive lie in the chosen piece of the run; "
             f"allowed: {FEWEST_PERIODS} and more, of a drive with a period"
         )
-    return _by_impact(result, journal(result, pin, after, until), said(result, after, until))
+    return _by_impact(result, journal(result, pin, after, until), window_text(result, after, until))
 
 
 # --- once in a period ---
@@ -143,7 +143,7 @@ def _by_period(
     if shown is None and not pair:
         raise InputError("a section: the run has neither a clearance pin nor a moving body on record")
     of = f", {as_words(shown.pin)}" if shown is not None else ""
-    title = f"Poincaré section once in a period{of}, {said(result, after, until)}"
+    title = f"Poincaré section once in a period{of}, {window_text(result, after, until)}"
     drawing = style.begin(170, 95 if shown else 110, title)
     panels = drawing.subplots(1, bool(shown) + bool(pair), squeeze=False)[0]
     closed: Mask | None = None
@@ -169,8 +169,8 @@ def _by_period(
     count, length = periodic_times(result, *window).size, period(result.scenario) or 0.0
     caption(
         drawing,
-        f"{count} points, one in every period of the drive ({units.said(length, 's', 4)}) at {phase:g} of it; "
-        f"values straight between records, which lie {units.said(spacing(result), 's')} apart. A motion that "
+        f"{count} points, one in each period of the drive ({units.amount(length, 's', 4)}) at {phase:g} of it; "
+        f"values straight between records, which lie {units.amount(spacing(result), 's')} apart. A motion that "
         "repeats in every period is one point, in every second two points; a cloud is irregular motion, or one "
         "that has not settled yet (a later start of the piece leaves that out).",
     )

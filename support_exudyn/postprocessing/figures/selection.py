@@ -78,7 +78,7 @@ def inside(result: Result, after: float, until: float, fewest: int = FEWEST) -> 
     return found
 
 
-def said(result: Result, after: float, until: float) -> str:
+def window_text(result: Result, after: float, until: float) -> str:
     """The piece in words, such as "3 to 5 s"."""
     first, last = result.time[[0, -1]]
     return f"{max(after, first):g} to {min(until, last):g} s"

@@ -10,7 +10,7 @@ from scipy import signal
 
 from support_exudyn.postprocessing.figures import style, units
 from support_exudyn.postprocessing.figures.journal import Series, chosen_pin, shortest_impact
-from support_exudyn.postprocessing.figures.selection import as_words, inside, said
+from support_exudyn.postprocessing.figures.selection import as_words, inside, window_text
 from support_exudyn.postprocessing.figures.style import caption
 from support_exudyn.postprocessing.figures.units import readable
 from support_exudyn.simulation.result import Result
@@ -140,7 +140,7 @@ def force_spectrum(
     chosen = inside(result, after, until, FEWEST)
     time, force = result.time[chosen], result[f"pin.{pin}.force"][chosen]
     found = spectrum(time, force, segments)
-    title = f"spectrum of the force in {as_words(pin)}, {said(result, after, until)}"
+    title = f"spectrum of the force in {as_words(pin)}, {window_text(result, after, until)}"
     drawing = style.begin(170, 130 if over_time else 85, title)
     panels = drawing.subplots(2 if over_time else 1, 1, squeeze=False)[:, 0]
     _draw(panels[0], found, style.CONTACT if pin in result.onsets else style.IDEAL)
@@ -199,18 +199,18 @@ def _draw_over_time(axes: Axes, time: Series, force: Series) -> None:
     axes.set(xlabel=f"time [{seconds.name}]", ylabel=f"frequency [{hertz.name}]")
     axes.set(xlim=seconds.scale * time[[0, -1]], ylim=(0.0, hertz.scale * 0.5 / spacing))
     axes.grid(False)
-    piece = units.said(length * spacing, "s")
+    piece = units.amount(length * spacing, "s")
     axes.set_title(f"b) over time, pieces of {piece}, resolved to {1.0 / (length * spacing):.3g} Hz")
     axes.figure.colorbar(drawn, ax=axes, label="amplitude [dB]", pad=0.01)
 
 
 def _words(found: Spectrum, shortest: float, over_time: bool) -> str:
     text = (
-        f"Amplitude of a sine of each frequency, from records every {units.said(found.spacing, 's', 4)}"
+        f"Amplitude of a sine of each frequency, from records every {units.amount(found.spacing, 's', 4)}"
         f"{' (interpolated to equal times)' if found.resampled else ''}: Welch's mean of {found.averaged} "
         f"overlapping pieces, without straight trend, Hann's window. Bins of "
-        f"{units.said(found.resolution, 'Hz')}, a tone is {WIDTH:g} bins wide; "
-        f"nothing is known above {units.said(found.nyquist, 'Hz', 4)}. "
+        f"{units.amount(found.resolution, 'Hz')}, a tone is {WIDTH:g} bins wide; "
+        f"nothing is known above {units.amount(found.nyquist, 'Hz', 4)}. "
     )
     if over_time:
         text += "In (b) 0 dB is the largest amplitude. "
@@ -220,7 +220,7 @@ def _words(found: Spectrum, shortest: float, over_time: bool) -> str:
     )
     if shortest < FINE_ENOUGH * found.spacing:
         text += (
-            f"The shortest impact lasts {units.said(shortest, 's')}: a record_period of "
-            f"{units.said(shortest / FINE_ENOUGH, 's')} would follow it. "
+            f"The shortest impact lasts {units.amount(shortest, 's')}: a record_period of "
+            f"{units.amount(shortest / FINE_ENOUGH, 's')} would follow it. "
         )
     return text.rstrip()

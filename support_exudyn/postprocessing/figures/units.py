@@ -93,7 +93,7 @@ def said_beside(value: float, unit: str, largest: float) -> str:
     return f"{shown.scale * value:.1f} {shown.name}"
 
 
-def said(value: float, unit: str, digits: int = 3) -> str:
+def amount(value: float, unit: str, digits: int = 3) -> str:
     """A quantity as text, in the unit in which it is read best: "0.26 ms" becomes "260 µs"."""
     shown = readable(unit, abs(value))
     number = f"{shown.scale * value:.{digits}g}"
