@@ -124,7 +124,7 @@ def _document(runs: SweepRuns, columns: Sequence[str], title: str) -> Document:
     drawn, here, shown = (
         ColumnDataSource({"x": [], "y": []}),
         ColumnDataSource({"x": [], "y": []}),
-        Div(text=""),
+        Div(text="", name="nearest"),
     )
     plot.scatter("x", "y", source=drawn, size=4, alpha=0.5)
     plot.scatter("x", "y", source=here, size=12, color="firebrick")

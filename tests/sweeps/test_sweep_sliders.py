@@ -19,7 +19,7 @@ from user_forces.values.value import InputError
 CHROMIUM, DRIVER = shutil.which("chromium"), shutil.which("chromedriver")
 PATIENCE = 30.0  # seconds
 WIDGET = "[...Bokeh.documents[0]._all_models.values()].find((model) => model.title === arguments[0])"
-TEXT = "return [...Bokeh.documents[0]._all_models.values()].find((model) => model.type === 'Div')?.text"
+TEXT = "return Bokeh.documents[0].get_model_by_name('nearest')?.text"
 
 
 def runs(**columns: list[object]) -> SweepRuns:
