@@ -8,7 +8,6 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 
 from support_exudyn.machines.machine_data import MachineData
-from support_exudyn.machines.strength.off_middle import beside_the_middle
 from support_exudyn.machines.strength.parts import (
     KnownPin,
     buckling_loads,
@@ -71,13 +70,6 @@ def stand(data: MachineData) -> StandReport:
         unknown_pins=[name for name, one in pins.items() if one is None],
         buckling=buckling,
         unbuckled=unbuckled,
-        off_middle=beside_the_middle(
-            data,
-            strength,
-            [told[0], told[len(told) // 2], told[-1]],
-            pushes(strength.cylinders, legs),
-            limits(strength.cylinders, legs),
-        ),
         tipping=None
         if strength.base is None
         else [tipping_of(one.linkage, strength.base, cylinder_masses(data, one.linkage)) for one in told],
@@ -274,7 +266,7 @@ def _assumed(data: MachineData, strength: StrengthData, pins: Mapping[str, Known
             yield f"{word}{of}: of {steels[word]}"
     weightless = [name for name in linkage.actuators if name not in data.actuators]
     if strength.base is not None and weightless:
-        yield f"cylinders of {', '.join(weightless)}: masses not known, left out of section 7"
+        yield f"cylinders of {', '.join(weightless)}: masses not known, left out of section 6"
     if strength.rated_force is None:
         yield "rated force: pushes of all legs at their yield pressure, added up"
 

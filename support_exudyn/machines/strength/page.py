@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 
 from support_exudyn.machines.check.report import aligned
 from support_exudyn.machines.strength.assessment import FACTORS, FRICTION
-from support_exudyn.machines.strength.results import OffMiddle, PinLoad, StandReport, SupportForce
+from support_exudyn.machines.strength.results import PinLoad, StandReport, SupportForce
 from support_exudyn.machines.strength.roof_forces import RoofForce
 
 Row = tuple[str, ...]
@@ -26,9 +26,9 @@ def page(report: StandReport) -> Iterator[str]:
     yield from _folded(f"{report.name or 'machine'}: what it must stand", "")
     yield (
         f"roof {_mm(low.height)} to {_mm(high.height)} mm above the origin; canopy {_mm(low.front - low.rear)} "
-        "mm long; static, in the plane unless said"
+        "mm long; static, in the plane"
     )
-    for section in (_cylinders, _support, _over, _pins, _buckled, _aside, _tipped):
+    for section in (_cylinders, _support, _over, _pins, _buckled, _tipped):
         for line in section(report):
             yield from [line] if len(line) <= WIDTH else _folded(line, "    ")
     for word, sentences in (("assumed", report.assumed), ("source", report.sources)):
@@ -180,56 +180,11 @@ def _buckled(report: StandReport) -> Iterator[str]:
         yield f"  {name}: not told, {why}"
 
 
-def _aside(report: StandReport) -> Iterator[str]:
-    found = report.off_middle
-    if isinstance(found, str):
-        yield f"6 eccentric load and torsion: not told, {found}"
-        return
-    yield (
-        f"6 in space: roof force {_mm(found[0].aside)} mm beside the middle, a quarter of the width, assumed "
-        "[plain]"
-    )
-    rows: list[Row] = [
-        (
-            "roof mm",
-            "middle kN",
-            "legs alone kN",
-            "share",
-            "torsion",
-            "pin",
-            "middle",
-            "by forces",
-            "by moments",
-        )
-    ]
-    for one in found:
-        worst = max(one.pins, key=lambda name: one.pins[name] - one.centred[name])
-        rows.append(_aside_row(one, worst))
-    yield from aligned(rows)
-    yield "  legs alone: no roll through the linkage, until one yields; torsion [kN m]: all of it, legs alike;"
-    yield "  rigid links leave its share open. By forces: in the bearing where they grow most [kN], least"
-    yield "  moments; by moments: the largest in a bearing of a link [kN m], least forces"
-
-
-def _aside_row(one: OffMiddle, worst: str) -> tuple[str, ...]:
-    return (
-        _mm(one.height),
-        _kn(one.nominal),
-        _kn(one.legs_alone),
-        f"{one.legs_alone / one.nominal:.2f}",
-        _kn(one.moment),
-        worst,
-        _kn(one.centred[worst]),
-        _kn(one.pins[worst]),
-        _kn(max((one.tilts[pin] for pin in one.links), default=math.nan)),
-    )
-
-
 def _tipped(report: StandReport) -> Iterator[str]:
     if report.tipping is None:
-        yield "7 standing free: not told, no base is described"
+        yield "6 standing free: not told, no base is described"
         return
-    yield "7 standing free, all postures: inclination of the floor at which it tips [plain: statics]"
+    yield "6 standing free, all postures: inclination of the floor at which it tips [plain: statics]"
     least = {way: min(one.angles[way] for one in report.tipping) for way in report.tipping[0].angles}
     top = max(report.tipping, key=lambda one: one.centre[1])
     told = ", ".join(f"{way} {math.degrees(angle):.1f}" for way, angle in least.items())

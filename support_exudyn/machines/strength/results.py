@@ -11,9 +11,8 @@ from support_exudyn.machines.strength.roof_forces import RoofContact, RoofForce
 from support_exudyn.machines.strength.strength_data import CylinderStrength
 
 UNITS = {  # of fields of results: plain data have them in the keys
-    "N": "force rated nominal worst rubbed euler johnson legs_alone pins centred",
-    "m": "stroke x rear front height length aside centre",
-    "N_m": "moment tilts",
+    "N": "force rated nominal worst rubbed euler johnson",
+    "m": "stroke x rear front height length centre",
     "Pa": "bearing shear bending yields",
     "kg": "mass",
     "rad": "angles",
@@ -89,31 +88,6 @@ class Buckling:
 
 
 @dataclass(frozen=True)
-class OffMiddle:
-    """A roof force beside the middle in one posture.
-
-    Arguments:
-        height: of the roof [m]. aside: e [m]. nominal: the roof force in the middle [N].
-        moment: Q e that the linkage carries while all legs push alike [N m].
-        pins: largest force in one bearing of a pin of the plane then, by pin, with the least moments [N].
-        centred: the same with e = 0.
-        tilts: largest moment in one bearing of a pin, by pin, with the least forces [N m].
-        links: pins that are not on the canopy.
-        legs_alone: largest roof force that legs alone carry at e, no roll passed on [N].
-    """
-
-    height: float
-    aside: float
-    nominal: float
-    moment: float
-    pins: Mapping[str, float]
-    centred: Mapping[str, float]
-    tilts: Mapping[str, float]
-    links: Sequence[str]
-    legs_alone: float
-
-
-@dataclass(frozen=True)
 class StandReport:
     """What a support must stand.
 
@@ -125,7 +99,6 @@ class StandReport:
         pins: by name. unknown_pins: of which too little is known.
         buckling: by actuator.
         unbuckled: actuators whose buckling is not told, with the reason.
-        off_middle: in the lowest, middle and highest posture, or in words why not.
         tipping: by posture of `forces`; None without a base.
         assumed: what was assumed, in sentences. sources: of the numbers, in sentences.
     """
@@ -141,7 +114,6 @@ class StandReport:
     unknown_pins: Sequence[str]
     buckling: Mapping[str, Buckling]
     unbuckled: Mapping[str, str]
-    off_middle: Sequence[OffMiddle] | str
     tipping: Sequence[Tipping] | None
     assumed: Sequence[str]
     sources: Sequence[str]

@@ -42,7 +42,7 @@ def test_the_page_is_one_page(name: str) -> None:
     assert len(lines) <= 64
     assert max(map(len, lines)) <= 100
     text = "\n".join(lines)
-    for section in range(1, 8):
+    for section in range(1, 7):
         assert f"\n{section} " in text
     for said in ("EN 1804-1, 4.3.1", "EN 1804-1, 4.3.2", "assumed: ", "source: strength: "):
         assert said in text
@@ -117,7 +117,7 @@ def test_in_other_units_all_is_the_same() -> None:
         )
         assert larger[key] == pytest.approx(endings.get(unit, 1.0) * number, rel=1e-6, abs=1e-6), key
         told += bool(unit)
-    assert told > 500
+    assert told > 400
 
 
 def leaves(data: Any, where: str = "") -> Iterator[tuple[str, float]]:
