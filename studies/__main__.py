@@ -8,7 +8,7 @@ from contextlib import nullcontext
 from dataclasses import replace
 
 from studies.adams import run as adams
-from studies.benchmarking import benchmark
+from studies.benchmarking import trade
 from studies.catalogue import DEFAULT, STUDIES
 from studies.common.options import Options, OptionWords
 from studies.common.study import Study, output_folder, say_short
@@ -22,7 +22,7 @@ from user_forces.values.value import InputError, short
 
 BENCHMARK, ADAMS = "benchmark", "adams"  # the commands that stand beside the studies
 app = new_app("python -m studies", "Run studies and write the report on them.", version_flags=())
-app.command(benchmark.benchmark, name=BENCHMARK)
+app.command(trade.benchmark, name=BENCHMARK)
 app.command(adams.adams, name=ADAMS)
 
 
@@ -65,7 +65,7 @@ def _list() -> None:
         about = ", ".join(filter(None, (paper, machine)))
         say(f"{name:20} {_seconds(study.seconds):>8}  {study.question}" + (f" ({about})" if about else ""))
     others = {
-        BENCHMARK: (benchmark.SECONDS, (benchmark.__doc__ or "").partition("?")[0] + "?"),
+        BENCHMARK: (trade.BENCHMARK_SECONDS, (trade.benchmark.__doc__ or "").partition("?")[0] + "?"),
         ADAMS: (0.0, "How is the paper's model written for ADAMS?"),
     }
     for name, (seconds, question) in others.items():

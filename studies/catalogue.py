@@ -1,5 +1,6 @@
 """All studies, in the order of the report. A new one is its folder and a line here."""
 
+from studies.benchmarking import trade
 from studies.blow import run as blow
 from studies.claims import run as claims
 from studies.clearance import run as clearance
@@ -12,14 +13,13 @@ from studies.outside import run as outside
 from studies.scene_detail import run as scene_detail
 from studies.slack_stiffness import run as slack_stiffness
 from studies.slider_crank import run as slider_crank
-from studies.speed_accuracy import run as speed_accuracy
 from studies.stability import run as stability
 from studies.which_pin import run as which_pin
 
 _IN_ORDER = (
     clearance.influence, clearance.size, drive_mode.study, valve_modes.study, claims.study, which_pin.study,
     scene_detail.study, contact_laws.study, slider_crank.study, outside.study, stability.study, blow.study,
-    slack_stiffness.study, speed_accuracy.study, extremes.study,
+    slack_stiffness.study, trade.study, extremes.study,
 )  # fmt: skip
 STUDIES: dict[str, Study] = {study.name: study for study in _IN_ORDER}
 DEFAULT = ("clearance_influence", "clearance_size", "drive_mode", "claims")  # the answer to the paper

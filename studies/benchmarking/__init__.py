@@ -1,1 +1,1 @@
-"""Speed against accuracy: scenes, tight references, ways to compute, and yardsticks that others set."""
+"""Speed against accuracy: a scene, a tight reference, and programs that compute it."""

@@ -1,12 +1,11 @@
-"""What accuracy costs: the error of one number over computing time, by this program and by others.
+"""What does a number cost: the error of a pin force over processor time, by this program and by others.
 
-The work is the paper's rise with 1.5 mm of clearance and friction in the rear-link pin; the number is the
+The work is the paper's rise with 1.5 mm of clearance and friction in the rear-link pin. The number is the
 largest force in that pin. Its error is the distance from a run of the compiled formulation at a tolerance of
-1e-12. Programs that are not installed are left out.
+1e-12. Programs that are not installed are left out. The study `speed_accuracy` leaves out settings that take
+minutes. The command `benchmark` has them, and its last table is `studies/benchmarking/RESULTS.md`.
 """
 
-import os
-import platform
 import statistics
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -21,32 +20,41 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter
 
-from studies.benchmarking.peers.in_drake import run_drake
 from studies.benchmarking.peers.in_mujoco import run_mujoco
 from studies.benchmarking.peers.in_scipy import run_lsoda
 from studies.benchmarking.peers.on_exudyn import run_stock
-from studies.benchmarking.peers.plain_support import PeerRun
 from studies.common import paper_machine
+from studies.common.numbers import Number
+from studies.common.options import Options
+from studies.common.study import Study, StudyOutcome, print_table, work_in_folder
 from support_exudyn import Estimate, Scenario, SolverSettings, simulate
-from support_exudyn.commands.command_line import warn
+from support_exudyn.commands.command_line import say, warn
+from support_exudyn.files.whole_file import whole_file
 from support_exudyn.formulations.registry import FormulationName
 from support_exudyn.postprocessing.figures import style
+from support_exudyn.postprocessing.page.pieces import Sheet
+from support_exudyn.simulation.provenance import versions
 from support_exudyn.sweeps.warm_up import warm_up
 
-CLEARANCE_MM = 1.5
+HERE = Path(__file__).parent
+BENCHMARK_SECONDS = 240.0  # that the command takes
+FIGURE = "error_and_time"
 REST_VELOCITY = 1e-3  # of the law [m/s]
 TIGHT = (1e-12, 1e-11)  # tolerances of the reference, and of the run that gives its error
 WORK = "rise of 5 s, 1.5 mm, friction 0.25"
 SHORT, TURNS = 1.0, 3  # a run that is shorter [s] is timed so often, and the median counts
-GOOD = 1e-3  # error of the largest force by which programs are compared in the table
+GOOD = 1e-3  # error of the largest force by which programs are compared
 COMPILED: FormulationName = "compiled"
 ENGINE: FormulationName = "exudyn"
 PRESETS = ("draft", "standard", "reference")
 
 
-def rise(friction: float = paper_machine.SLIDING_COEFFICIENT) -> Scenario:
-    """The paper's rise with clearance in the rear-link pin and so much sliding friction, without settings."""
-    scenario = paper_machine.clearance_rise(CLEARANCE_MM, friction, 5e-4, law=paper_machine.PAPERS_LAW)
+@cache
+def rise() -> Scenario:
+    """The paper's rise with clearance and friction in the rear-link pin, at default settings of the solver."""
+    scenario = paper_machine.clearance_rise(
+        paper_machine.CLEARANCE_MM, paper_machine.SLIDING_COEFFICIENT, 5e-4, law=paper_machine.PAPERS_LAW
+    )
     pin: Any = scenario.pins[paper_machine.CLEARANCE_PIN]
     law = replace(pin.contact.normal, rest_velocity=REST_VELOCITY)
     pins = {paper_machine.CLEARANCE_PIN: replace(pin, contact=replace(pin.contact, normal=law))}
@@ -64,47 +72,33 @@ def exact_force() -> Estimate:
     return Estimate(tight, abs(looser - tight), "N")
 
 
+# --- programs ---
+
+
 @dataclass(frozen=True)
 class PeerProgram:
     """A program or a way to use it.
 
     settings: labels and values from coarse to fine. run: the scenario by a setting, and the largest pin force
-    [N]. package: that has to be installed. slow: labels of settings that take minutes.
+    [N]. look: colour and marker in the figure. package: that has to be installed. slow: labels of settings that
+    take minutes.
     """
 
     name: str
     settings: Mapping[str, Any]
     run: Callable[[Scenario, Any], float]
+    look: tuple[str, str]
     package: str = ""
     slow: Sequence[str] = ()
 
-    @property
-    def is_installed(self) -> bool:
-        """Whether it can be run here."""
-        return not self.package or find_spec(self.package) is not None
-
 
 class TradePoint(NamedTuple):
-    """A program by a setting: processor time [s], its ratio to that of COMMON, error of the force [-]."""
+    """A program by a setting: processor time [s] and relative error of the force."""
 
     program: str
     setting: str
     seconds: float
-    ratio: float
     error: float
-
-
-def _to_accuracy(formulation: FormulationName) -> Callable[[Scenario, Any], float]:
-    return lambda scenario, accuracy: _largest(replace(scenario, formulation=formulation, accuracy=accuracy))
-
-
-def _once(formulation: FormulationName) -> Callable[[Scenario, Any], float]:
-    def run(scenario: Scenario, settings: Mapping[str, Any]) -> float:
-        solver = SolverSettings(**settings["solver"], result_checks=False)
-        step = settings.get("step", scenario.step)
-        return _largest(replace(scenario, formulation=formulation, step=step, solver=solver))
-
-    return run
 
 
 def _largest(scenario: Scenario) -> float:
@@ -112,8 +106,22 @@ def _largest(scenario: Scenario) -> float:
     return force
 
 
-def _of_peer(run: Callable[[Scenario, float], PeerRun]) -> Callable[[Scenario, Any], float]:
-    return lambda scenario, setting: run(scenario, setting).largest
+def _to_accuracy(formulation: FormulationName) -> Callable[[Scenario, Any], float]:
+    return lambda scenario, accuracy: _largest(replace(scenario, formulation=formulation, accuracy=accuracy))
+
+
+def _compiled_once(scenario: Scenario, tolerance: float) -> float:
+    solver = SolverSettings(tolerance=tolerance, result_checks=False)
+    return _largest(replace(scenario, formulation=COMPILED, solver=solver))
+
+
+def _engine_once(scenario: Scenario, steps: tuple[float, int]) -> float:
+    solver = SolverSettings(impact_steps=steps[1], result_checks=False)
+    return _largest(replace(scenario, formulation=ENGINE, step=steps[0], solver=solver))
+
+
+def _tolerances(*tolerances: float) -> Mapping[str, float]:
+    return {f"tolerance {x:.0e}": x for x in tolerances}
 
 
 def _steps(*steps: float) -> Mapping[str, float]:
@@ -123,26 +131,35 @@ def _steps(*steps: float) -> Mapping[str, float]:
 OURS_COMPILED, OURS_ENGINE = "support-exudyn, compiled", "support-exudyn on Exudyn"
 ONCE = ", single run"
 STOCK = "Exudyn, stock recipe"
-COMMON = (OURS_COMPILED, "standard")
-_ACCURACIES = dict(zip(PRESETS, PRESETS, strict=True))
-_TOLERANCES = {f"tolerance {x:.0e}": {"solver": {"tolerance": x}} for x in (1e-3, 1e-4, 1e-5, 1e-6)}
-_IMPACTS = {
-    f"{n} steps an impact": {"step": step, "solver": {"impact_steps": n}}
-    for step, n in ((1e-3, 64), (1e-3, 256), (5e-4, 512))
-}
-_OF_DRAKE = {f"accuracy {x:.0e}": x for x in (1e-2, 1e-3, 1e-4, 1e-5)}
-_OF_LSODA = {f"tolerance {x:.0e}": x for x in (1e-4, 1e-5, 1e-6, 1e-7)}
+_ACCURACIES = {preset: preset for preset in PRESETS}
+_IMPACTS = {f"{n} steps an impact": (step, n) for step, n in ((1e-3, 64), (1e-3, 256), (5e-4, 512))}
+_BLUE, _LIGHT_BLUE = ("#0072B2", "o"), ("#56B4E9", "o")  # of this program
 PROGRAMS: Mapping[str, PeerProgram] = {
-    one.name: one
-    for one in (
-        PeerProgram(OURS_COMPILED, _ACCURACIES, _to_accuracy(COMPILED)),
-        PeerProgram(OURS_ENGINE, _ACCURACIES, _to_accuracy(ENGINE), slow=["reference"]),
-        PeerProgram(OURS_COMPILED + ONCE, _TOLERANCES, _once(COMPILED)),
-        PeerProgram(OURS_ENGINE + ONCE, _IMPACTS, _once(ENGINE)),
-        PeerProgram(STOCK, _steps(3e-4, 2e-4, 1e-4, 5e-5), _of_peer(run_stock)),
-        PeerProgram("MuJoCo", _steps(2e-4, 1e-4, 5e-5, 2e-5), _of_peer(run_mujoco), "mujoco"),
-        PeerProgram("Drake", _OF_DRAKE, _of_peer(run_drake), "pydrake"),
-        PeerProgram("scipy's LSODA", _OF_LSODA, _of_peer(run_lsoda)),
+    program.name: program
+    for program in (
+        PeerProgram(OURS_COMPILED, _ACCURACIES, _to_accuracy(COMPILED), _BLUE),
+        PeerProgram(OURS_ENGINE, _ACCURACIES, _to_accuracy(ENGINE), _LIGHT_BLUE, slow=["reference"]),
+        PeerProgram(OURS_COMPILED + ONCE, _tolerances(1e-3, 1e-4, 1e-5, 1e-6), _compiled_once, _BLUE),
+        PeerProgram(OURS_ENGINE + ONCE, _IMPACTS, _engine_once, _LIGHT_BLUE),
+        PeerProgram(
+            STOCK,
+            _steps(3e-4, 2e-4, 1e-4, 5e-5),
+            lambda scenario, step: run_stock(scenario, step).force.max(),
+            ("#000000", "s"),
+        ),
+        PeerProgram(
+            "MuJoCo",
+            _steps(2e-4, 1e-4, 5e-5, 2e-5),
+            lambda scenario, step: run_mujoco(scenario, step).force.max(),
+            ("#D55E00", "P"),
+            "mujoco",
+        ),
+        PeerProgram(
+            "scipy's LSODA",
+            _tolerances(1e-4, 1e-5, 1e-6, 1e-7),
+            lambda scenario, tolerance: run_lsoda(scenario, tolerance).force.max(),
+            ("#009E73", "v"),
+        ),
     )
 }
 
@@ -150,23 +167,18 @@ PROGRAMS: Mapping[str, PeerProgram] = {
 # --- measured ---
 
 
-def measured(names: Sequence[str] = tuple(PROGRAMS), with_slow: bool = False) -> Iterator[TradePoint]:
-    """Run the programs that are installed, each by all its settings beside COMMON."""
-    programs = [PROGRAMS[one] for one in names if PROGRAMS[one].is_installed]
-    if not programs:
-        return
+def measured(with_slow: bool = False) -> Iterator[TradePoint]:
+    """Run the programs that are installed, each by all its settings."""
     warm_up(with_legs=False)
     scenario, exact = rise(), exact_force().value
-    name, setting = COMMON
-    common = PROGRAMS[name]
-    _timed(lambda: common.run(scenario, setting))  # imports
-    for program in programs:
+    for program in PROGRAMS.values():
+        if program.package and find_spec(program.package) is None:
+            continue
         warn(f"{WORK}: {program.name}")
-        beside, _ = _timed(lambda: common.run(scenario, setting))
         for label, value in program.settings.items():
             if with_slow or label not in program.slow:
                 seconds, force = _timed(lambda p=program, v=value: p.run(scenario, v))  # type: ignore[misc]
-                yield TradePoint(program.name, label, seconds, seconds / beside, abs(force / exact - 1.0))
+                yield TradePoint(program.name, label, seconds, float(abs(force / exact - 1.0)))
 
 
 def _timed(run: Callable[[], float]) -> tuple[float, float]:
@@ -174,31 +186,11 @@ def _timed(run: Callable[[], float]) -> tuple[float, float]:
     times = []
     for _ in range(TURNS):
         began = time.process_time()
-        found = run()
+        force = run()
         times.append(time.process_time() - began)
         if times[0] > SHORT:
             break
-    return statistics.median(times), found
-
-
-def machine_name() -> str:
-    """Processor and number of cores."""
-    name, cpuinfo = platform.processor() or platform.machine(), Path("/proc/cpuinfo")
-    if cpuinfo.exists():
-        models = (line.partition(":")[2] for line in cpuinfo.read_text().splitlines() if "model name" in line)
-        name = next(models, name).strip()
-    return f"{name}, {os.cpu_count()} cores"
-
-
-CAPTION = (
-    f"Relative error of the largest force in the rear-link pin over processor time ({WORK}), against the "
-    "compiled formulation at a tolerance of 1e-12. Where a finer setting has a larger error, that is drawn. "
-    "Filled circles: runs to an accuracy, at least three each, that report their error; all others are single "
-    "runs. Exudyn, stock recipe: generalised alpha at fixed steps, the contact as a Python user function, no "
-    "impact located. support-exudyn on Exudyn: the same engine and integrator with located impacts; compiled: "
-    "an embedded Runge-Kutta 5(4) method with error control. MuJoCo: Runge-Kutta 4 at fixed steps; Drake: "
-    "Runge-Kutta 3 with error control; LSODA: equations of motion by hand."
-)
+    return statistics.median(times), force
 
 
 def lasting_errors(points: Sequence[TradePoint]) -> list[float]:
@@ -206,28 +198,28 @@ def lasting_errors(points: Sequence[TradePoint]) -> list[float]:
 
     So an error that is small by chance, as that of a single number may be, does not count.
     """
-    found: list[float] = np.maximum.accumulate([one.error for one in reversed(points)])[::-1].tolist()
-    return found
+    errors: list[float] = np.maximum.accumulate([point.error for point in reversed(points)])[::-1].tolist()
+    return errors
 
 
 def cheapest(points: Sequence[TradePoint], program: str, error: float = GOOD) -> TradePoint | None:
     """The fastest setting of a program whose error, and that of all finer ones, is at most so large."""
-    mine = [one for one in points if one.program == program]
-    good = [one for one, lasting in zip(mine, lasting_errors(mine), strict=True) if lasting <= error]
-    return min(good, key=lambda one: one.ratio) if good else None
+    mine = [point for point in points if point.program == program]
+    good = [point for point, lasting in zip(mine, lasting_errors(mine), strict=True) if lasting <= error]
+    return min(good, key=lambda point: point.seconds) if good else None
 
 
-# --- the figure ---
+# --- figure and table ---
 
-# by program: colour, marker; ours are blue
-LOOKS: Mapping[str, tuple[str, str]] = {
-    OURS_COMPILED: ("#0072B2", "o"),
-    OURS_ENGINE: ("#56B4E9", "o"),
-    STOCK: ("#000000", "s"),
-    "MuJoCo": ("#D55E00", "P"),
-    "Drake": ("#882255", "^"),
-    "scipy's LSODA": ("#009E73", "v"),
-}
+CAPTION = (
+    f"Relative error of the largest force in the rear-link pin over processor time ({WORK}), against the "
+    "compiled formulation at a tolerance of 1e-12. Where a finer setting has a larger error, that is drawn. "
+    "Filled circles: runs to an accuracy, at least three each, that report their error; all others are single "
+    "runs. Exudyn, stock recipe: generalised alpha at fixed steps, the contact as a Python user function, no "
+    "impact located. support-exudyn on Exudyn: the same engine and integrator with located impacts; compiled: "
+    "an embedded Runge-Kutta 5(4) method with error control. MuJoCo: Runge-Kutta 4 at fixed steps; LSODA: "
+    "equations of motion by hand."
+)
 SMALLEST = 1e-10  # errors below are those of the reference
 
 
@@ -235,8 +227,10 @@ def figure(points: Sequence[TradePoint]) -> Figure:
     """Errors of all programs over their processor time, on logarithmic axes."""
     drawing = Figure(figsize=style.size(160, 100))
     axes = drawing.subplots()
-    for name in PROGRAMS:
-        _line(axes, name, [one for one in points if one.program == name])
+    for program in PROGRAMS.values():
+        mine = [point for point in points if point.program == program.name]
+        if mine:
+            _line(axes, program, mine)
     axes.set(
         xscale="log",
         yscale="log",
@@ -252,16 +246,13 @@ def figure(points: Sequence[TradePoint]) -> Figure:
     return drawing
 
 
-def _line(axes: Axes, name: str, points: Sequence[TradePoint]) -> None:
-    if not points:
-        return
-    colour, marker = LOOKS[name.removesuffix(ONCE)]
+def _line(axes: Axes, program: PeerProgram, points: Sequence[TradePoint]) -> None:
+    """Draw a program's settings; settings of runs to an accuracy have their names."""
+    name, (colour, marker) = program.name, program.look
     reports = name in (OURS_COMPILED, OURS_ENGINE)
-    x = [one.seconds for one in points]
     y = [max(error, SMALLEST) for error in lasting_errors(points)]
-    label = f"{name},\nto an accuracy" if reports else name.replace(ONCE, f"{ONCE[:1]}\nsingle run")
     axes.plot(
-        x,
+        [point.seconds for point in points],
         y,
         color=colour,
         marker=marker,
@@ -269,19 +260,90 @@ def _line(axes: Axes, name: str, points: Sequence[TradePoint]) -> None:
         mfc=colour if reports else "white",
         lw=1.8 if reports else 1.0,
         ls="--" if name.endswith(ONCE) else "-",
-        label=label,
+        label=f"{name},\nto an accuracy" if reports else name.replace(ONCE, f"{ONCE[:1]}\nsingle run"),
     )
-    if reports:
-        for one, at in zip(points, y, strict=True):
-            # at the edge of the axes, and where two points can be next to each other
-            is_left = (one.setting, name) in ((PRESETS[-1], OURS_ENGINE), (PRESETS[1], OURS_COMPILED))
-            axes.annotate(
-                f'"{one.setting}"',
-                (one.seconds, at),
-                (-7, -2) if is_left else (7, -2),
-                textcoords="offset points",
-                ha="right" if is_left else "left",
-                fontsize=7.5,
-                color=colour,
-                bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.5},
-            )
+    for point, at in zip(points if reports else (), y, strict=False):
+        # at the edge of the axes, and where two points can be next to each other
+        is_left = (point.setting, name) in ((PRESETS[-1], OURS_ENGINE), (PRESETS[1], OURS_COMPILED))
+        axes.annotate(
+            f'"{point.setting}"',
+            (point.seconds, at),
+            (-7, -2) if is_left else (7, -2),
+            textcoords="offset points",
+            ha="right" if is_left else "left",
+            fontsize=7.5,
+            color=colour,
+            bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.5},
+        )
+
+
+def table(points: Sequence[TradePoint]) -> Sheet:
+    """All settings of all programs."""
+    return Sheet(
+        title="What accuracy costs: error of the largest pin force and time",
+        header=("program", "setting", "processor [s]", "error"),
+        rows=tuple((p.program, p.setting, f"{p.seconds:.3g}", f"{p.error:.1e}") for p in points),
+        caption="Processor times on one core, of short runs the median of three.",
+        left=2,
+    )
+
+
+# --- the study ---
+
+
+def work(chosen: Options) -> StudyOutcome:
+    """Measure the programs one after another, for they are timed; no run is kept."""
+    del chosen
+    points = list(measured())
+    sheet, exact = table(points), exact_force()
+    name = "relative error of the largest pin force"
+    numbers = [Number("largest pin force", "reference", exact.value, "N", exact.error)]
+    numbers += [
+        Number(name, f"{point.program}, {point.setting}", point.error, "1", exact.error / exact.value)
+        for point in points
+    ]
+    words = {
+        "exact": exact,
+        "good": GOOD,
+        "work": WORK,
+        "best": {name: cheapest(points, name) for name in dict.fromkeys(point.program for point in points)},
+        "headline": (OURS_COMPILED + ONCE, STOCK),
+        "presets": [point for point in points if point.program in (OURS_COMPILED, OURS_ENGINE)],
+        "caption": CAPTION,
+        "table_caption": sheet.caption,
+    }
+    return StudyOutcome(numbers, words, {FIGURE: figure(points)}, {"settings": sheet})
+
+
+study = Study("speed_accuracy", __doc__, work, seconds=120.0, sentences="benchmarking/words.md.j2")
+
+
+def benchmark(*, out: Path = HERE) -> int:
+    """How fast is the program among others? The command `python -m studies benchmark`.
+
+    Args:
+        out: Folder for RESULTS.md and its figure (here).
+    """
+    return work_in_folder(lambda out: write_results(out, list(measured(with_slow=True))), out)
+
+
+def write_results(out: Path, points: Sequence[TradePoint]) -> None:
+    """Print the table of all settings; write it into RESULTS.md, and the figure beside it."""
+    sheet = table(points)
+    rows = (sheet.header, ["---"] * len(sheet.header), *sheet.rows)
+    packages = ", ".join(f"{name} {number}" for name, number in versions().items())
+    words = [
+        "# Benchmark",
+        f"Made by `python -m studies benchmark`. {packages}.",
+        f"![Error of the largest pin force over processor time, a line a program]({FIGURE}.png)",
+        f"*{CAPTION}*",
+        f"**{sheet.title}**",
+        "\n".join(f"| {' | '.join(row)} |" for row in rows),
+        sheet.caption,
+    ]
+    with style.look():
+        style.save(figure(points), out, FIGURE, pdf=False)
+    print_table(sheet, width=100)
+    with whole_file(out / "RESULTS.md") as temporary:
+        temporary.write_text("\n\n".join(words) + "\n", encoding="utf-8")
+    say(f"\nlook at {out / 'RESULTS.md'}")

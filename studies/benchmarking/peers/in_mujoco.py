@@ -6,7 +6,6 @@ constraint keeps; it is MuJoCo's spring and damper on the acceleration, `a = -b 
 moved so that it follows the drive exactly. The classical Runge-Kutta method of order four makes equal steps.
 """
 
-import time
 from typing import Any
 
 import numpy as np
@@ -66,16 +65,14 @@ def run_mujoco(scenario: Scenario, step: float) -> PeerRun:
     mujoco.set_mjcb_passive(push)
     try:
         with undisturbed():
-            began = time.process_time()
             for _ in range(round(scenario.duration / step)):
                 stage = 0
                 mujoco.mj_step(model, data)
             stage = 0
             mujoco.mj_forward(model, data)  # notes the end of the last step
-            took = time.process_time() - began
     finally:
         mujoco.set_mjcb_passive(None)
-    return log.run(took)
+    return log.run()
 
 
 def _model(support: PlainSupport, step: float, own: float, damping: float) -> str:

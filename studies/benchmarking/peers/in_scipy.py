@@ -8,7 +8,6 @@ is a constant.
 
 import itertools
 import math
-import time
 from typing import Any
 
 import numpy as np
@@ -47,7 +46,6 @@ def run_lsoda(scenario: Scenario, tolerance: float) -> PeerRun:
     t, state, speed, closed = 0.0, np.zeros(24), 0.0, False
     pieces: list[tuple[float, Any]] = []  # initial impact velocity and what `solve_ivp` gave
     with undisturbed():
-        began = time.process_time()
         while t < scenario.duration:
             if len(pieces) > MOST_PIECES:
                 raise RuntimeError(
@@ -64,13 +62,12 @@ def run_lsoda(scenario: Scenario, tolerance: float) -> PeerRun:
                 closed = not closed
                 place, velocity, _ = equations.journal(state)
                 speed = max(0.0, float(place @ velocity) / support.clearance) if closed else 0.0
-        took = time.process_time() - began
     log = JournalLog(support)
     for log.speed, found in pieces:
         within = np.concatenate([h + (k - h) * NOTED for h, k in itertools.pairwise(found.t)])
         for at, each in zip(within.tolist(), found.sol(within).T, strict=True):
             log.note(at, *equations.journal(each))
-    return log.run(took)
+    return log.run()
 
 
 def _smooth(

@@ -76,7 +76,6 @@ class PlainSupport:
     links: tuple[Link, ...]
     columns: tuple[PeerColumn, ...]
     bore: Vector2
-    contact: JournalContact
     clearance: float
     force: JournalForce
     drive: CubicStep | Held
@@ -118,17 +117,8 @@ def plain_support(scenario: Scenario) -> PlainSupport:
     places = {name: n for n, (name, _, _) in enumerate(TREE)}
     links = []
     for name, parent, pin in TREE:
-        body = linkage.bodies[name]
-        links.append(
-            Link(
-                name,
-                places.get(parent, -1),
-                linkage.pins[pin].first_point,
-                body.centre,
-                body.mass,
-                body.inertia,
-            )
-        )
+        body, point = linkage.bodies[name], linkage.pins[pin].first_point
+        links.append(Link(name, places.get(parent, -1), point, body.centre, body.mass, body.inertia))
     columns = [
         PeerColumn(name, one.foot_point, one.head_point, one.start_length)
         for name, one in linkage.actuators.items()
@@ -137,7 +127,6 @@ def plain_support(scenario: Scenario) -> PlainSupport:
         links=tuple(links),
         columns=tuple(columns),
         bore=linkage.pins[PIN].first_point,
-        contact=contact,
         clearance=contact.bearing.clearance,
         force=journal_force(contact),
         drive=drive,
@@ -152,7 +141,10 @@ def journal_force(contact: JournalContact) -> JournalForce:
     impact velocity, not less than the law's rest velocity. Friction by Ambrosio acts at the contact point.
     Raises InputError for other laws.
     """
-    stiffness, factor, floor = contact_numbers(contact)
+    law = contact.normal
+    if not isinstance(law, LankaraniNikravesh) or law.exponent != 1.5:
+        raise InputError(f"normal = {law}: allowed here: LankaraniNikravesh with exponent 1.5")
+    stiffness, factor, floor = law.stiffness, law.damping_factor, law.rest_velocity
     clearance, bore_radius = contact.bearing.clearance, contact.bearing.bore_radius
     friction = contact.friction
     if not isinstance(friction, (Ambrosio, Frictionless)):
@@ -184,32 +176,14 @@ def journal_force(contact: JournalContact) -> JournalForce:
     return force
 
 
-def contact_numbers(contact: JournalContact) -> tuple[float, float, float]:
-    """Stiffness [N/m^1.5], damping factor [-], rest velocity [m/s]; InputError otherwise."""
-    law = contact.normal
-    if not isinstance(law, LankaraniNikravesh) or law.exponent != 1.5:
-        raise InputError(f"normal = {law}: allowed here: LankaraniNikravesh with exponent 1.5")
-    return law.stiffness, law.damping_factor, law.rest_velocity
-
-
 # --- runs ---
 
 
 class PeerRun(NamedTuple):
-    """Outcome of a competitor's run.
-
-    time [s], force: magnitude in the clearance pin [N], both at the ends of all steps. solve_time: of the
-    solver, on the processor [s].
-    """
+    """Time [s] and magnitude of the force in the clearance pin [N] at the ends of all steps."""
 
     time: Series
     force: Series
-    solve_time: float
-
-    @property
-    def largest(self) -> float:
-        """The largest force at the end of any step [N]."""
-        return float(self.force.max())
 
 
 def _speed_at_zero(first: float, last: float, first_slope: float, last_slope: float) -> float:
@@ -264,7 +238,7 @@ class JournalLog:
         fx, fy, _ = self.support.force(x, y, vx, vy, spin, self.speed)
         self.steps.append((t, math.hypot(fx, fy), depth, rate))
 
-    def run(self, took: float) -> PeerRun:
-        """The outcome of a run that took so long [s]."""
+    def run(self) -> PeerRun:
+        """Time and force at the ends of all steps."""
         time, force, *_ = np.array(self.steps).T
-        return PeerRun(time, force, took)
+        return PeerRun(time, force)
