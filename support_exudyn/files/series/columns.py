@@ -15,7 +15,6 @@ from support_exudyn.files.series.units import is_called_time, is_time, read_unit
 from user_forces.values.value import InputError, cleaned, short
 
 Numbers = npt.NDArray[np.float64]
-Place = Callable[[int], str]
 MANY = 5  # names that are shown
 SERIAL_DAYS, MATLAB_DAYS = (20_000.0, 80_000.0), (700_000.0, 800_000.0)  # years 1954 to 2119, 1916 to 2190
 EPOCH = (9e8, 4e9)  # [s] since 1970: years 1998 to 2096
@@ -33,9 +32,7 @@ class Column:
     stamps: Stamps | None = None
 
 
-def row_number(row: int) -> str:
-    """Where a row stands, by its number from 1 on."""
-    return f"row {row + 1}"
+Group = tuple[Column, Sequence[Column]]  # times, and what is over them
 
 
 @dataclass(frozen=True)
@@ -53,7 +50,7 @@ class Table:
     others: Sequence[str] = ()
     notes: Sequence[str] = ()
     intervals: Mapping[str, float] = field(default_factory=dict)
-    place: Place = row_number
+    place: Callable[[int], str] = lambda row: f"row {row + 1}"
 
 
 def first_names(names: Iterable[str]) -> str:
@@ -64,20 +61,14 @@ def first_names(names: Iterable[str]) -> str:
 # --- which columns are times ---
 
 
-def is_named_time(name: str) -> bool:
-    """Whether a name is one of times, such as time, T or .MODEL_1.Last_Run.TIME."""
-    return name.casefold() in ("time", "t") or name.casefold().rpartition(".")[2] == "time"
-
-
 def named_times(names: Sequence[tuple[str, str | None]]) -> list[int]:
     """Which of names, each with its unit (None: it has none), are called as times are.
 
     `time` in any letters goes before `t`, and that before `T`, which a temperature is called, too.
     """
-    named = [n for n, (name, _) in enumerate(names) if name.casefold() == "time"]
-    brief = [
-        n for n, (name, unit) in enumerate(names) if name.casefold() == "t" and (unit is None or is_time(unit))
-    ]
+    small = [name.casefold() for name, _ in names]
+    named = [n for n, name in enumerate(small) if name == "time"]
+    brief = [n for n, (_, unit) in enumerate(names) if small[n] == "t" and (unit is None or is_time(unit))]
     return named or [n for n in brief if names[n][0] == "t"] or brief
 
 
@@ -93,29 +84,29 @@ def table_series(table: Table, asked: Asked) -> SeriesFile:
     numbers = [one for one in table.columns if one.stamps is None]
     units = [asked.unit(one.name, one.unit) for one in numbers]
     named = named_times([(one.name, unit) for one, unit in zip(numbers, units, strict=True)])
-    if not named and numbers and is_named_time(numbers[0].name):
+    if not named and numbers and numbers[0].name.casefold().endswith(".time"):
         named = [0]
     in_time = [n for n, unit in enumerate(units) if unit is not None and is_time(unit)]
     is_known = bool(named) and units[named[0]] is not None
     is_known = is_known or (len(in_time) == 1 and is_called_time(numbers[in_time[0]].name))
-    rated = _of_rate(table, numbers, asked.rate) if not is_known else None
+    rated = None if is_known else _of_rate(table, numbers, asked.rate)
     stamped = None if is_known else _of_stamps(table) or (None if in_time else _of_calendar(numbers, units))
-    note = ""
-    if stamped is not None and (repeated := _repeated(stamped[0].values)) is not None:
+    if stamped is not None and (row := _repeated(stamped[0].values)) is not None:
         if rated is None:
             raise InputError(
-                f"{table.path}: {table.place(repeated)}, column {short(stamped[0].name)}: at least every other "
-                "row repeats the time before it; allowed: stamps with fractions of a second, or a rate, such "
-                "as --rate 10 [Hz]"
+                f"{table.path}: {table.place(row)}, column {short(stamped[0].name)}: at least every other row "
+                "repeats the time before it; allowed: stamps with fractions of a second, or a rate, such as "
+                "--rate 10 [Hz]"
             )
         stamped = None
-    if named and (units[named[0]] is not None or (stamped is None and rated is None)):
+    note = ""
+    if named and (is_known or stamped is None is rated):
         groups, note = _groups(table.path, numbers, named)
     elif len(in_time) == 1 and stamped is None:
         groups, _ = _groups(table.path, numbers, in_time)
         note = f"Column {numbers[in_time[0]].name!r} is taken for the times: it alone is in a unit of time."
-    elif stamped is not None or rated is not None:
-        times, note = stamped or rated or (numbers[0], "")
+    elif made := stamped or rated:
+        times, note = made
         groups = [(times, [one for one in numbers if one.name != times.name])]
     elif len(numbers) > 1 and numbers[0].name == "column_1":
         groups, note = _groups(table.path, numbers, [0])
@@ -126,19 +117,18 @@ def table_series(table: Table, asked: Asked) -> SeriesFile:
             "such as 2023-05-04 06:00, or a rate in the header or by --rate 1000 [Hz]; its numbers are "
             f"{first_names(one.name for one in numbers)}{others}"
         )
-    notes = [*table.notes, note]
-    used = groups[0][0].name
-    others_left = [*table.others, *(one.name for one in table.columns if one.stamps and one.name not in used)]
-    if others_left:
-        notes.append(f"Columns that are no numbers are left out: {first_names(others_left)}.")
-    if asked.rate and groups[0][0] is not (rated and rated[0]):
-        notes.append(f"The rate of {asked.rate:g} Hz is not used: column {groups[0][0].name!r} has the times.")
+    notes, used = [*table.notes, note], groups[0][0]
+    if left := [
+        *table.others,
+        *(one.name for one in table.columns if one.stamps and one.name not in used.name),
+    ]:
+        notes.append(f"Columns that are no numbers are left out: {first_names(left)}.")
+    if asked.rate and used is not (rated and rated[0]):
+        notes.append(f"The rate of {asked.rate:g} Hz is not used: column {used.name!r} has the times.")
     return series_file(table.path, table.kind, groups, asked, notes, table.place)
 
 
-def _groups(
-    path: Path, columns: Sequence[Column], times: Sequence[int]
-) -> tuple[list[tuple[Column, list[Column]]], str]:
+def _groups(path: Path, columns: Sequence[Column], times: Sequence[int]) -> tuple[list[Group], str]:
     """Columns of times, each with the columns that are over it, and a note if there are several."""
     if len(times) == 1:
         return [(columns[times[0]], [one for n, one in enumerate(columns) if n != times[0]])], ""
@@ -148,7 +138,7 @@ def _groups(
             "times; allowed: after that of its own"
         )
     ends = [*times[1:], len(columns)]
-    groups = [(columns[start], [*columns[start + 1 : end]]) for start, end in zip(times, ends, strict=True)]
+    groups = [(columns[start], columns[start + 1 : end]) for start, end in zip(times, ends, strict=True)]
     return groups, f"{len(times)} columns of times; each is of the columns to its right, up to the next."
 
 
@@ -162,34 +152,26 @@ def _of_stamps(table: Table) -> tuple[Column, str] | None:
     whole = [one for one in found if one[1].has_date and one[1].period]
     dates = [one for one in found if one[1].has_date and not one[1].period]
     clocks = [one for one in found if not one[1].has_date]
-    for one in (whole or clocks or dates)[:1] + (dates[:1] if clocks and not whole else []):
-        if (wrong := one[1].wrong) is not None:
-            raise InputError(
-                f"{table.path}: {table.place(wrong[0])}, column {short(one[0])}: {short(wrong[1])}; allowed: a "
-                "date and time as before, or nothing"
-            )
-    if whole:
-        name, stamps = whole[0]
-        seconds, note = stamps.seconds, stamps.note
-    elif dates and clocks:
-        name = f"{dates[0][0]} {clocks[0][0]}"
-        seconds, note = dates[0][1].seconds + clocks[0][1].seconds, dates[0][1].note
-    elif clocks:
-        (name, stamps), note = clocks[0], ""
-        there = np.flatnonzero(np.isfinite(stamps.seconds))
-        seconds = stamps.seconds.copy()
-        turns = np.cumsum(np.diff(seconds[there], prepend=seconds[there[:1]]) < -0.5 * stamps.period)
-        seconds[there] += stamps.period * turns
-        if turns.size and turns[-1]:
-            note = f"Column {name!r} runs over midnight." if stamps.period == DAY else ""
-    elif dates and np.ptp(dates[0][1].seconds[np.isfinite(dates[0][1].seconds)]) > 0.0:
-        name, stamps = dates[0]
-        seconds, note = stamps.seconds, stamps.note
-    else:
+    used = whole[:1] or [*dates[:1], *clocks[:1]]
+    if not used:
         return None
-    return Column(
-        name, "s", _from_first(seconds)
-    ), f"Times are counted from the first stamp of {name!r}. {note}"
+    for name, stamps in used:
+        if stamps.wrong is not None:
+            row, item, allowed = stamps.wrong
+            raise InputError(
+                f"{table.path}: {table.place(row)}, column {short(name)}: {short(item)}; allowed: {allowed}"
+            )
+    name, note = " ".join(one for one, _ in used), ""
+    seconds = np.sum([stamps.seconds for _, stamps in used], axis=0)
+    there = np.flatnonzero(np.isfinite(seconds))
+    if clocks and not dates and not whole:
+        period = clocks[0][1].period
+        turns = np.cumsum(np.diff(seconds[there], prepend=seconds[there[:1]]) < -0.5 * period)
+        seconds[there] += period * turns
+        note = f" Column {name!r} runs over midnight." if period == DAY and turns[-1:].any() else ""
+    if used == dates[:1] and np.ptp(seconds[there]) == 0.0:
+        return None
+    return Column(name, "s", _from_first(seconds)), f"Times are counted from the first stamp of {name!r}.{note}"
 
 
 def _from_first(seconds: Numbers) -> Numbers:
@@ -205,18 +187,15 @@ def _of_calendar(columns: Sequence[Column], units: Sequence[str | None]) -> tupl
         if unit is not None or not there.size or not (is_dated or is_called_time(column.name)):
             continue
         low, high = float(there.min()), float(there.max())
-        phrase, ticks = "", 0.0
-        for days, what in ((SERIAL_DAYS, "a spreadsheet's calendar"), (MATLAB_DAYS, "MATLAB's calendar")):
-            if is_dated and days[0] <= low and high <= days[1]:
-                phrase, ticks = f"days of {what}", 1.0 / DAY
-        for name, per_second in EPOCHS.items():
-            if EPOCH[0] * per_second <= low and high <= EPOCH[1] * per_second:
-                phrase, ticks = f"{name} since 1970", per_second
-        if phrase:
-            seconds = np.round(_from_first(column.values) / ticks, 9 if ticks >= 1.0 else 6)
-            return Column(
-                column.name, "s", seconds
-            ), f"Column {column.name!r} is read as {phrase}, from the first."
+        kinds = {f"{name} since 1970": (EPOCH[0] * n, EPOCH[1] * n, n) for name, n in EPOCHS.items()}
+        if is_dated:
+            kinds["days of a spreadsheet's calendar"] = (*SERIAL_DAYS, 1.0 / DAY)
+            kinds["days of MATLAB's calendar"] = (*MATLAB_DAYS, 1.0 / DAY)
+        for phrase, (begin, end, ticks) in kinds.items():
+            if begin <= low and high <= end:
+                seconds = np.round(_from_first(column.values) / ticks, 9 if ticks >= 1.0 else 6)
+                note = f"Column {column.name!r} is read as {phrase}, from the first."
+                return Column(column.name, "s", seconds), note
     return None
 
 
@@ -253,10 +232,10 @@ def _repeated(times: Numbers) -> int | None:
 def series_file(
     path: Path,
     kind: str,
-    groups: Iterable[tuple[Column, Iterable[Column]]],
+    groups: Iterable[Group],
     asked: Asked,
     notes: Iterable[str] = (),
-    place: Place = row_number,
+    place: Callable[[int], str] = Table.place,
 ) -> SeriesFile:
     """Series from columns over their times.
 
@@ -275,33 +254,29 @@ def series_file(
     known: dict[str, int] = {}
     remarks, changes = [*notes], list[str]()
     for times, columns in groups:
-        time, order, phrase = _increasing(path, times, asked, place)
-        changes += [one for one in phrase if one not in changes]
+        time, order, phrases = _increasing(path, times, asked, place)
+        changes += phrases
         for column in columns:
             name = column.name
             known[name] = known.get(name, 0) + 1
             if known[name] > 1:
+                remarks.append(f"Several columns are called {name!r}; the later ones are {name}#2 and so on.")
                 name = f"{name}#{known[name]}"
-                remarks.append(
-                    f"Several columns are called {column.name!r}; the later ones are {column.name}#2 and so on."
-                )
             if not asked.wants(name):
                 continue
-            values = column.values if order is None else column.values[order]
+            values = column.values[order]
             if endless := int(np.isinf(values).sum()):
                 values = np.where(np.isinf(values), np.nan, values)
                 remarks.append(f"{name}: infinite values count as not known: {endless}.")
             series[name] = NamedSeries(name, _unit(path, column, asked), time, values)
-    remarks = list(dict.fromkeys(cleaned(one).strip() for one in (*remarks, *changes) if one.strip()))
+    changes = list(dict.fromkeys(changes))
+    remarks = list(dict.fromkeys(cleaned(one).strip() for one in (*remarks, *changes) if one))
     if not series:
-        raise InputError(" ".join((f"{path}: {_nothing(asked)}.", *remarks))[:-1])
+        phrase = f"has no series {first_names(asked.names)}; allowed: its own names"
+        if not asked.names:
+            phrase = "has times and nothing else; allowed: a column of numbers beside them"
+        raise InputError(" ".join((f"{path}: {phrase}.", *remarks))[:-1])
     return SeriesFile(path, kind, series, tuple(remarks), tuple(changes))
-
-
-def _nothing(asked: Asked) -> str:
-    if asked.names:
-        return f"has no series {first_names(asked.names)}; allowed: its own names"
-    return "has times and nothing else; allowed: a column of numbers beside them"
 
 
 def _unit(path: Path, column: Column, asked: Asked) -> str | None:
@@ -312,9 +287,9 @@ def _unit(path: Path, column: Column, asked: Asked) -> str | None:
 
 
 def _increasing(
-    path: Path, column: Column, asked: Asked, place: Place
-) -> tuple[Numbers, npt.NDArray[np.intp] | None, list[str]]:
-    """Times [s] that increase, the rows that they are of (None: all as they are), and notes on it."""
+    path: Path, column: Column, asked: Asked, place: Callable[[int], str]
+) -> tuple[Numbers, npt.NDArray[np.intp] | slice, list[str]]:
+    """Times [s] that increase, the rows that they are of, and notes on it."""
     unit = _unit(path, column, asked)
     where = f"{path}: times, column {short(column.name)}"
     if unit is None:
@@ -327,29 +302,24 @@ def _increasing(
     time = scaled(column.values, unit, "s", where)
     if np.isinf(time).any():
         raise InputError(f"{where}: {place(int(np.argmax(np.isinf(time))))} is infinite; allowed: numbers")
-    there = np.isfinite(time)
-    if not there.any():
+    order = np.flatnonzero(np.isfinite(time))
+    if not order.size:
         raise InputError(f"{where}: has no numbers; allowed: one or more")
-    if there.all() and (np.diff(time) > 0.0).all():
-        return time, None, []
     remarks = []
-    if missing := int((~there).sum()):
-        remarks.append(
-            f"Rows without a time are left out: {missing}, the first is {place(int(np.argmin(there)))}."
-        )
-    order = np.flatnonzero(there)
-    steps = np.diff(time[order])
-    if (steps < 0.0).any():
-        first = place(int(order[np.argmax(steps < 0.0) + 1]))
+    if missing := time.size - order.size:
+        first = place(int(np.argmax(np.isnan(time))))
+        remarks.append(f"Rows without a time are left out: {missing}, the first is {first}.")
+    falls = np.diff(time[order]) < 0.0
+    if falls.any():
+        first = place(int(order[np.argmax(falls) + 1]))
         remarks.append(f"The times of column {column.name!r} go back at {first}; rows are sorted by time.")
         order = order[np.argsort(time[order], kind="stable")]
-        steps = np.diff(time[order])
-    last = np.append(steps > 0.0, True)
+    last = np.append(np.diff(time[order]) > 0.0, True)
     if repeated := int((~last).sum()):
         first = place(int(order[np.argmin(last)]))
         remarks.append(
             f"Times are repeated; of rows of one time the last stays, {repeated} are left out, the first is "
             f"{first}."
         )
-    order = order[last]
-    return time[order], order, remarks
+    rows = order[last] if remarks else slice(None)  # of all rows nothing is copied
+    return time[rows], rows, remarks

@@ -24,7 +24,7 @@ import h5py
 import numpy as np
 
 from support_exudyn.files.free_memory import available
-from support_exudyn.files.series.columns import Column, Numbers, first_names, named_times, series_file
+from support_exudyn.files.series.columns import Column, Group, Numbers, first_names, named_times, series_file
 from support_exudyn.files.series.named_series import Asked, SeriesFile
 from support_exudyn.files.series.units import read_unit, split_title
 from support_exudyn.files.whole_file import contents
@@ -33,10 +33,12 @@ from user_forces.values.value import InputError, cleaned
 MAGIC, MAGIC_HDF5 = b"MATLAB 5.0 MAT-file", b"MATLAB 7.3 MAT-file"
 DEEPEST = 8  # structures in structures
 WIDEST = 1000  # columns of a matrix
-TOLD = 300  # letters of what went wrong
+LETTERS = 300  # of an error of scipy or h5py that are shown
 DATA = ("data", "values", "signals")
 UNIT = re.compile(r"\[([^\[\]|]*)(?:\|[^\[\]]*)?\]\s*$")  # "angle [rad|deg]": a unit, and that for display
-MODELICA = ("Aclass", "name", "dataInfo")
+MODELICA = {"Aclass", "name", "dataInfo"}
+OPAQUE = ("MatlabOpaque", "MatlabFunction")  # classes of scipy for what only MATLAB reads
+RATES, INTERVALS = ("fs", "samplerate", "sample_rate", "samplingrate", "rate"), ("dt", "ts")  # names of numbers
 Tree = Mapping[str, Any]  # structures as mappings, their arrays as lists, numbers as arrays, texts
 
 
@@ -53,16 +55,13 @@ def is_matlab(head: bytes) -> bool:
 
 def _is_version_4(head: bytes) -> bool:
     """Five whole numbers: type, rows, columns, whether there is an imaginary part, letters of the name."""
-    if len(head) < 22:
-        return False
-    for order in "<>":
-        kind, rows, columns, imaginary, letters = (int(one) for one in np.frombuffer(head[:20], f"{order}i4"))
+    for order in "<>" if len(head) >= 22 else "":
+        kind, rows, columns, imaginary, letters = np.frombuffer(head[:20], f"{order}i4").tolist()
         digits = f"{kind:04d}"  # order of bytes, 0, type of the numbers, kind of the matrix
         known = len(digits) == 4 and digits[0] in "01" and digits[1] == "0" and digits[2] <= "5"
-        if known and min(rows, columns) >= 0 and imaginary in (0, 1) and 2 <= letters <= 64:
-            name = head[20 : 20 + letters]
-            if name[-1:] == b"\0" and name[:-1].replace(b"_", b"a").isalnum():
-                return True
+        name = head[20 : 20 + max(0, letters)]
+        if known and min(rows, columns) >= 0 and imaginary in (0, 1) and name[-1:] == b"\0":
+            return name[:-1].replace(b"_", b"a").isalnum()
     return False
 
 
@@ -74,31 +73,27 @@ def read_matlab(path: Path, asked: Asked) -> SeriesFile:
     data = contents(path, available() // 4)
     try:
         tree = _of_hdf5(data) if data.startswith(MAGIC_HDF5) else _of_scipy(data)
-        if all(key in tree for key in MODELICA):
+        if tree.keys() >= MODELICA:
             return _of_modelica(path, tree, asked)
     except InputError:
         raise
     except Exception as error:  # of many kinds, by scipy and h5py
-        why = cleaned(" ".join(f"{error or type(error).__name__}".split()))[:TOLD]
+        why = cleaned(" ".join(f"{error or type(error).__name__}".split()))[:LETTERS]
         raise InputError(f"{path}: is no MATLAB file that can be read ({why}); allowed: a whole one") from None
-    groups = list(_groups(path, tree, (), None))
-    if not groups:
-        groups = _of_rate(tree, asked.rate)
-    objects = sorted({f"{name} ({kind})" for name, kind in _objects(tree, ())})
-    phrase = "; ".join(objects[:4])
-    if not groups and objects:
+    groups = list(_groups(path, tree, (), None)) or _of_rate(tree, asked.rate)
+    phrase = "; ".join(sorted({f"{name} ({kind})" for name, kind in _objects(tree, ())})[:4])
+    if not groups and phrase:
         raise InputError(
             f"{path}: has nothing but objects of MATLAB, which only MATLAB reads: {phrase}; allowed: "
             "arrays, as by t = ts.Time; y = ts.Data; save('file.mat', 't', 'y'), or Simulink's format Array or "
             "Structure With Time"
         )
     if not groups:
-        names = [".".join(one) for one, _ in _arrays(tree, ())]
         raise InputError(
             f"{path}: has no vector of times with others as long; allowed: a vector t or time beside them; its "
-            f"vectors are {first_names(names) or 'none'}"
+            f"variables are {first_names(tree) or 'none'}"
         )
-    notes = [f"Objects of MATLAB, which only MATLAB reads, are left out: {phrase}."] if objects else []
+    notes = [f"Objects of MATLAB, which only MATLAB reads, are left out: {phrase}."] if phrase else []
     return series_file(path, "MATLAB file", groups, asked, notes)
 
 
@@ -110,19 +105,17 @@ def _vectors(tree: Tree) -> dict[str, Numbers]:
     found = {}
     for name, values in tree.items():
         if isinstance(values, np.ndarray) and values.dtype.kind in "fiub" and values.size > 1:
-            table = values.squeeze() if values.ndim < 4 else values
+            table = values.squeeze()
             if table.ndim == 3:  # Simulink's matrices over time: the last index is the time's
-                table = np.moveaxis(table, -1, 0).reshape(table.shape[-1], -1)
-            if table.ndim in (1, 2):
+                table = np.moveaxis(table, -1, 0)
+            if table.ndim < 4:
                 found[name] = np.asarray(table, dtype=np.float64).reshape(table.shape[0], -1)
     return found
 
 
-def _groups(
-    path: Path, tree: Tree, above: tuple[str, ...], times: Column | None
-) -> Iterator[tuple[Column, list[Column]]]:
+def _groups(path: Path, tree: Tree, above: tuple[str, ...], times: Column | None) -> Iterator[Group]:
     """Times, each with its columns, of a structure and of those in it, which may have times of their own."""
-    vectors = _vectors(tree)
+    vectors, signals = _vectors(tree), _signals(tree)
     names = [name for name, values in vectors.items() if values.shape[1] == 1]
     titles = [names[n] for n in named_times([split_title(one)[:2] for one in names])]
     titles = titles or [one for one in names if one == "tout"]
@@ -130,51 +123,46 @@ def _groups(
         raise InputError(f"{path}: has {len(titles)} vectors of times, {', '.join(titles)}; allowed: one")
     if titles:
         name, unit, _ = split_title(titles[0])
-        in_seconds = "s" if name == "tout" or _signals(tree) else None  # of Simulink
+        in_seconds = "s" if name == "tout" or signals else None  # of Simulink
         times = Column(".".join((*above, name)), unit or in_seconds, vectors.pop(titles[0])[:, 0])
     if times is not None:
+        count = times.values.size
+        fitting = {name: one if len(one) == count else one.T for name, one in signals.items()}
+        fitting = {**vectors, **fitting}
         columns = [
-            one
-            for name, values in vectors.items()
-            if len(values) == times.values.size and values.shape[1] <= WIDEST
-            for one in _columns((*above, name), values)
-        ]
-        columns += [
-            one for n, signal in _signals(tree) for one in _of_signal(above, n, signal, times.values.size)
+            column
+            for name, values in fitting.items()
+            if len(values) == count and values.shape[1] <= WIDEST
+            for column in _columns((*above, name), values)
         ]
         if columns:
             yield times, columns
-    for name, inside in tree.items():
-        if isinstance(inside, Mapping) and not (name == "signals" and "values" in inside):
-            yield from _groups(path, inside, (*above, name), times)
-        elif isinstance(inside, list) and name != "signals":
-            for n, one in enumerate(inside, 1):
-                if isinstance(one, Mapping):
-                    yield from _groups(path, one, (*above, f"{name}.{n}"), times)
+    for name, item in tree.items():
+        if name == "signals" and signals:
+            continue
+        if isinstance(item, Mapping):
+            yield from _groups(path, item, (*above, name), times)
+        for n, one in enumerate(item if isinstance(item, list) else (), 1):
+            if isinstance(one, Mapping):
+                yield from _groups(path, one, (*above, f"{name}.{n}"), times)
 
 
-def _of_rate(tree: Tree, rate: float | None) -> list[tuple[Column, list[Column]]]:
+def _of_rate(tree: Tree, rate: float | None) -> list[Group]:
     """Times at a rate [Hz], by default that of a number `fs` or `dt` in the file, with the longest columns."""
-    numbers = {
-        name.casefold(): one.item()
-        for name, one in tree.items()
-        if isinstance(one, np.ndarray) and one.size == 1 and one.dtype.kind in "fiu"
-    }
-    known = [
-        numbers[name] for name in ("fs", "samplerate", "sample_rate", "samplingrate", "rate") if name in numbers
-    ]
-    known += [1.0 / numbers[name] for name in ("dt", "ts") if numbers.get(name)]
-    rate = rate or next((float(one) for one in known if one > 0.0), None)
+    numbers = {name.casefold(): float(one) for name, one in tree.items() if np.size(one) == 1 and _is_real(one)}
+    known = [numbers[name] for name in RATES if name in numbers]
+    known += [1.0 / numbers[name] for name in INTERVALS if numbers.get(name)]
+    rate = rate or next((one for one in known if one > 0.0), None)
     found = [one for name, values in _vectors(tree).items() for one in _columns((name,), values)]
     size = max((one.values.size for one in found), default=0)
     if rate is None or not size:
         return []
-    return [
-        (
-            Column("time at the rate", "s", np.arange(size) / rate),
-            [one for one in found if one.values.size == size],
-        )
-    ]
+    times = Column("time at the rate", "s", np.arange(size) / rate)
+    return [(times, [one for one in found if one.values.size == size])]
+
+
+def _is_real(item: Any) -> bool:
+    return np.asarray(item).dtype.kind in "fiu"
 
 
 def _columns(place: tuple[str, ...], values: Numbers) -> list[Column]:
@@ -182,29 +170,19 @@ def _columns(place: tuple[str, ...], values: Numbers) -> list[Column]:
     name, unit, _ = split_title(place[-1])
     whole = ".".join(place[:-1] if name.casefold() in DATA and place[:-1] else (*place[:-1], name))
     several = values.shape[1] > 1
-    return [
-        Column(f"{whole}.{n + 1}" if several else whole, unit, values[:, n]) for n in range(values.shape[1])
-    ]
+    return [Column(f"{whole}.{n}" if several else whole, unit, one) for n, one in enumerate(values.T, 1)]
 
 
-def _signals(tree: Tree) -> list[tuple[int, Tree]]:
-    """The signals of Simulink's structure with time, with their numbers from 1 on."""
+def _signals(tree: Tree) -> dict[str, Numbers]:
+    """The values of the signals of Simulink's structure with time, by their labels, blocks or numbers."""
     signals = tree.get("signals")
-    found = signals if isinstance(signals, list) else [signals]
-    return [(n, one) for n, one in enumerate(found, 1) if isinstance(one, Mapping) and "values" in one]
-
-
-def _of_signal(above: tuple[str, ...], n: int, signal: Tree, count: int) -> list[Column]:
-    """The columns of a signal, called by its label, its block or its number."""
-    values = _vectors({"values": signal["values"]}).get("values")
-    if values is None or count not in values.shape:
-        return []
-    values = values if len(values) == count else values.T
-    labels = [signal.get(key) for key in ("label", "blockName")]
-    label = next(
-        (one.rpartition("/")[2] for one in labels if isinstance(one, str) and one.strip()), f"signal{n}"
-    )
-    return _columns((*above, label), values)
+    found = {}
+    for n, one in enumerate(signals if isinstance(signals, list) else [signals], 1):
+        if isinstance(one, Mapping) and (values := _vectors({"values": one.get("values")})):
+            labels = [one.get(key) for key in ("label", "blockName")]
+            named = (text.rpartition("/")[2] for text in labels if isinstance(text, str) and text.strip())
+            found[next(named, f"signal{n}")] = values["values"]
+    return found
 
 
 # --- Dymola and OpenModelica ---
@@ -212,28 +190,22 @@ def _of_signal(above: tuple[str, ...], n: int, signal: Tree, count: int) -> list
 
 def _of_modelica(path: Path, tree: Tree, asked: Asked) -> SeriesFile:
     """The variables of a simulation in Modelica; parameters, which do not change, are series of two points."""
-    form = [str(one).strip() for one in np.atleast_1d(tree["Aclass"])]
-    is_transposed = len(form) > 3 and "trans" in form[3].casefold()
+    is_transposed = any("trans" in str(one).casefold() for one in np.atleast_1d(tree["Aclass"])[3:4])
     names, remarks = (_words(tree.get(key, ()), is_transposed) for key in ("name", "description"))
-    info = np.asarray(tree["dataInfo"]).astype(int)
-    info = info if is_transposed else info.T
-    data = {
-        key: np.atleast_2d(np.asarray(tree[f"data_{key}"], dtype=np.float64))
-        for key in (1, 2)
-        if f"data_{key}" in tree
+    tables = {
+        key: np.atleast_2d(np.asarray(tree[key], dtype=np.float64))
+        for key in ("dataInfo", "data_1", "data_2")
+        if key in tree
     }
-    data = data if is_transposed else {key: one.T for key, one in data.items()}
-    times: dict[int, Column] = {key: Column("Time", "s", one[0]) for key, one in data.items()}
-    columns: dict[int, list[Column]] = {key: [] for key in data}
+    rows = tables if is_transposed else {key: one.T for key, one in tables.items()}
+    groups = {key: (Column("Time", "s", rows[key][0]), list[Column]()) for key in rows if key != "dataInfo"}
     for n, name in enumerate(names):
-        matrix, place = int(info[0, n]), int(info[1, n])
-        if matrix in data and place and abs(place) > 1:
+        key, place = f"data_{int(rows['dataInfo'][0, n])}", int(rows["dataInfo"][1, n])
+        if key in groups and abs(place) > 1:
             unit = UNIT.search(remarks[n]) if n < len(remarks) else None
-            values = np.sign(place) * data[matrix][abs(place) - 1]
-            columns[matrix].append(Column(name, read_unit(unit[1])[0] if unit else None, values))
-    return series_file(
-        path, "simulation in Modelica", [(times[key], columns[key]) for key in sorted(data)], asked
-    )
+            values = np.sign(place) * rows[key][abs(place) - 1]
+            groups[key][1].append(Column(name, read_unit(unit[1])[0] if unit else None, values))
+    return series_file(path, "simulation in Modelica", groups.values(), asked)
 
 
 def _words(matrix: Any, is_transposed: bool) -> list[str]:
@@ -257,58 +229,30 @@ def _objects(tree: Tree, above: tuple[str, ...]) -> Iterator[tuple[str, str]]:
             yield from _objects(item, (*above, name))
 
 
-def _arrays(tree: Tree, above: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...], Any]]:
-    for name, item in tree.items():
-        if isinstance(item, Mapping):
-            yield from _arrays(item, (*above, name))
-        elif isinstance(item, np.ndarray):
-            yield (*above, name), item
-
-
 def _of_scipy(data: bytes) -> Tree:
     """The variables of a file of version 4 to 7."""
     from scipy.io.matlab import loadmat
 
     stream: Any = io.BytesIO(data)  # which scipy takes, and its stubs do not tell
-    return {name: _plain(one, 0) for name, one in loadmat(stream).items() if not name.startswith("__")}
+    found = loadmat(stream, simplify_cells=data.startswith(MAGIC))
+    return {name: _plain(one) for name, one in found.items() if not name.startswith("__")}
 
 
-def _plain(item: Any, depth: int) -> Any:
-    """An item of scipy's as mappings, lists, arrays and texts."""
-    if depth > DEEPEST:
-        raise ValueError(f"it has more than {DEEPEST} structures in structures")
-    kind = getattr(item, "dtype", None)
-    if kind is None:
-        return item
-    if type(item).__name__ in ("MatlabOpaque", "MatlabObject", "MatlabFunction"):
-        words = [str(item[name].reshape(-1)[0]) for name in ("s0", "s2")] if "s2" in (kind.names or ()) else []
-        return _Object(" of class ".join(words) or getattr(item, "classname", "a function"))
-    if kind.names:
-        found = [{name: _plain(one[name], depth + 1) for name in kind.names} for one in item.reshape(-1)]
-        return found[0] if len(found) == 1 else found
-    if kind.kind == "O":
-        cells = [_plain(one, depth + 1) for one in item.reshape(-1)]
-        return cells[0] if len(cells) == 1 else cells
-    return str(item.reshape(-1)[0]) if kind.kind in "US" and item.size == 1 else item
+def _plain(item: Any) -> Any:
+    """An item of scipy's, with a class in place of an object of MATLAB, and a list in place of cells."""
+    if isinstance(item, dict):
+        return {name: _plain(one) for name, one in item.items()}
+    if type(item).__name__ in OPAQUE:
+        names = [key for key in ("s0", "s2") if key in (item.dtype.names or ())]
+        return _Object(" of class ".join(str(item[key].reshape(-1)[0]) for key in names) or "a function")
+    return [_plain(one) for one in item] if isinstance(item, list) or np.asarray(item).dtype == "O" else item
 
 
 def _of_hdf5(data: bytes) -> Tree:
     """The variables of a file of version 7.3; nothing that stands in other files."""
     with h5py.File(h5py.h5f.open_file_image(data), "r") as file:
-        return _of_group(file, file, 0)
-
-
-def _of_group(file: Any, group: Any, depth: int) -> Tree:
-    found = {}
-    for name in group:
-        if not name.startswith("#") and isinstance(group.get(name, getlink=True), h5py.HardLink):
-            found[name] = _of_item(file, group[name], depth + 1)
-    lists = {name: one for name, one in found.items() if isinstance(one, list)}
-    if (
-        found and len(lists) == len(found) and len({len(one) for one in lists.values()}) == 1
-    ):  # an array of structures
-        return {"signals": [dict(zip(lists, one, strict=True)) for one in zip(*lists.values(), strict=True)]}
-    return found
+        found = _of_item(file, file, 0)
+    return found if isinstance(found, dict) else {"signals": found}
 
 
 def _of_item(file: Any, item: Any, depth: int) -> Any:
@@ -318,8 +262,12 @@ def _of_item(file: Any, item: Any, depth: int) -> Any:
     if "MATLAB_object_decode" in item.attrs:
         return _Object(bytes(item.attrs.get("MATLAB_class", b"object")).decode())
     if isinstance(item, h5py.Group):
-        inside = _of_group(file, item, depth)
-        return inside["signals"] if isinstance(inside, Mapping) and list(inside) == ["signals"] else inside
+        names = [one for one in item if isinstance(item.get(one, getlink=True), h5py.HardLink)]
+        found = {name: _of_item(file, item[name], depth + 1) for name in names if not name.startswith("#")}
+        sizes = {len(one) if isinstance(one, list) else -1 for one in found.values()}
+        if len(sizes) != 1 or -1 in sizes:
+            return found
+        return [dict(zip(found, one, strict=True)) for one in zip(*found.values(), strict=True)]  # structures
     if item.external or item.is_virtual or "MATLAB_empty" in item.attrs:
         return None
     if item.dtype == h5py.ref_dtype:

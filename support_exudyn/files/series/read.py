@@ -18,16 +18,14 @@ from support_exudyn.files.series.exudyn_files import (
 from support_exudyn.files.series.labview import is_labview, read_labview
 from support_exudyn.files.series.matlab import is_matlab, read_matlab
 from support_exudyn.files.series.named_series import Asked, Progress, SeriesFile, silent
-from support_exudyn.files.series.own_runs import is_exported, is_run, read_exported, read_own_run
+from support_exudyn.files.series.own_runs import is_exported, is_run, read_own_file
 from support_exudyn.files.series.text_tables import is_text, read_text_table
 from support_exudyn.files.series.typed_tables import (
     is_feather,
     is_json,
     is_parquet,
     is_workbook,
-    read_feather,
-    read_json,
-    read_parquet,
+    read_typed_table,
     read_workbook,
 )
 from support_exudyn.files.whole_file import check_is_file, missing_file
@@ -67,16 +65,16 @@ REFUSED = (  # how files begin that are no tables, what they are, and what to do
 )  # fmt: skip
 
 FORMATS = (  # the first that fits is taken
-    SeriesFormat("run of this program", is_run, read_own_run),
-    SeriesFormat("channels that `export --to hdf5` has written", is_exported, read_exported),
+    SeriesFormat("run of this program", is_run, read_own_file),
+    SeriesFormat("channels that `export --to hdf5` has written", is_exported, read_own_file),
     SeriesFormat("MATLAB file (.mat)", is_matlab, read_matlab),
-    SeriesFormat("Parquet file", is_parquet, read_parquet),
-    SeriesFormat("Feather file", is_feather, read_feather),
+    SeriesFormat("Parquet file", is_parquet, read_typed_table),
+    SeriesFormat("Feather file", is_feather, read_typed_table),
     SeriesFormat("workbook of Excel (.xlsx)", is_workbook, read_workbook),
     SeriesFormat("binary solution of Exudyn", is_exudyn_binary, read_exudyn_binary),
     SeriesFormat("ADAMS result file (.res)", _is_xml, read_adams_results),
     SeriesFormat("LabVIEW measurement file (.lvm)", is_labview, read_labview),
-    SeriesFormat("JSON file", is_json, read_json),
+    SeriesFormat("JSON file", is_json, read_typed_table),
     SeriesFormat("ADAMS request file (.req)", is_request_file, read_adams_requests),
     SeriesFormat("sensor or solution of Exudyn as text", is_exudyn_text, read_exudyn_text),
     SeriesFormat("table of text (CSV)", is_text, read_text_table),

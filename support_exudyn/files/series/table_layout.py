@@ -1,35 +1,47 @@
-"""How a table of text is written: what separates its items, what its decimals are, where its titles stand."""
+"""How a table of text is written: separator of its items, decimals, kinds of its columns, titles and units."""
 
 from __future__ import annotations
 
+import csv
 import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from itertools import pairwise
+from functools import lru_cache
 from pathlib import Path
 
+import numpy as np
+
 from support_exudyn.files.series.columns import first_names
-from support_exudyn.files.series.table_titles import (
-    COMMENTS,
-    PYTHON,
-    SEPARATORS,
-    Titles,
-    is_time_title,
-    items,
-    kind_of,
-    stated_intervals,
-)
+from support_exudyn.files.series.stamps import is_stamp
+from support_exudyn.files.series.units import is_called_time, is_time, read_unit, scaled, split_title
 from user_forces.values.value import InputError
 
+BLANKS = " "  # any number of blanks and tabs
+SEPARATORS = ("\t", ";", ",", "|", BLANKS)
+MISSING = {  # items that are no numbers, in small letters
+    *("", "nan", "-nan", "na", "n/a", "#n/a", "#nv", "nv", "null", "none", "nil", "nat", "-", "--", "---", "?"),
+    *("*", "#value!", "#div/0!", "#ref!", "#num!", "#name?", "missing", "no data", "n.a.", "k.a.", "---.-"),
+    *("--.--", "1.#qnan", "-1.#qnan", "1.#ind", "-1.#ind", "1.#inf", "-1.#inf", "nan(ind)", "-nan(ind)"),
+}
+ITEMS = re.compile(r'"[^"]*"|\S+')  # that blanks separate
+SIGNS = " '\u00a0\u202f"  # between thousands, as a comma or a point may be
+NUMBERS = {  # by what the decimals are behind
+    point: re.compile(
+        rf"[+-]?([0-9]+{dot}?[0-9]*|{dot}[0-9]+|[0-9]{{1,3}}([{other}{SIGNS}][0-9]{{3}})+({dot}[0-9]*)?)"
+        r"([eEdD][+-]?[0-9]+)?|[+-]?(?i:inf|infinity)"
+    )
+    for point, dot, other in ((".", r"\.", ","), (",", ",", "."))
+}
 GROUPED = re.compile(r"[+-]?[1-9][0-9]{0,2}([.,])[0-9]{3}")  # 1,234: a thousand, or one and a bit
 MANY_GROUPS = re.compile(
     r"[+-]?[0-9]{1,3}([., '])[0-9]{3}(\1[0-9]{3})+|[+-]?[0-9]{1,3}([.,][0-9]{3})+[.,][0-9]+"
 )
-BEGINS = re.compile(r"[\s\"]*[-+.,]?[0-9]")  # rows, but for those of words first
 FEW = 2  # lines of numbers, such as sizes, that may stand above the titles
-LINES, LETTERS = 400, 1_000_000  # by which a layout is determined
+LINES = 400  # by which a layout is determined
 ALLOWED = "rows of numbers below a line of titles such as time_s,tip.x_mm"
+Title = tuple[str, str | None]  # a name, and a unit, None without one
+Lines = Sequence[tuple[int, list[str]]]  # indices of lines, and their items
 
 
 @dataclass(frozen=True)
@@ -37,108 +49,48 @@ class TableLayout:
     """How a table is written.
 
     separator: between items. decimal: "." or ",". first: the index of the first line of numbers.
-    titles: a name and a unit (None: it has none) for each item. kinds: "number", "stamp" or "word" for each.
-    notes: on what was assumed. intervals: between rows [s], that the lines above give, by those lines.
+    titles: a name and a unit for each item. kinds: "number", "stamp" or "word" for each.
+    notes: on what was assumed. intervals: between rows [s] that the lines above give, by those lines.
     """
 
     separator: str
     decimal: str
     first: int
-    titles: tuple[tuple[str, str | None], ...]
+    titles: tuple[Title, ...]
     kinds: tuple[str, ...]
     notes: tuple[str, ...] = ()
     intervals: Mapping[str, float] = field(default_factory=dict)
 
     @property
-    def comment(self) -> str:
+    def comment(self) -> re.Pattern[str]:
         """The pattern by which lines of comments begin."""
-        return COMMENTS[self.separator]
-
-    def items(self, line: str) -> list[str]:
-        """The items of a line."""
-        return items(line, self.separator)
-
-    def is_row(self, line: str) -> bool:
-        """Whether a line is a row: numbers and stamps where they belong, at least one of them."""
-        return _is_row(self.items(line), self.kinds, self.decimal)
+        return _comment(self.separator)
 
 
-def _is_row(found: Sequence[str], kinds: Sequence[str], decimal: str) -> bool:
-    if len(found) != len(kinds):
-        return False
-    own = [kind_of(item, decimal) for item in found]
-    fit = all(wanted == "word" or one in (wanted, "missing") for one, wanted in zip(own, kinds, strict=True))
-    return fit and any(one == wanted != "word" for one, wanted in zip(own, kinds, strict=True))
+def _comment(separator: str) -> re.Pattern[str]:
+    return re.compile(r"\s*(#|%|!|//)" if separator == ";" else r"\s*(#|%|!|//|;)")
 
 
-# --- separators, decimals and kinds ---
+def items(line: str, separator: str) -> list[str]:
+    """The items of a line, without blanks around them."""
+    if separator == BLANKS:
+        return [one.strip('"') for one in ITEMS.findall(line)]
+    if '"' not in line:
+        return [one.strip() for one in line.split(separator)]
+    try:
+        return [one.strip() for one in next(csv.reader([line], delimiter=separator, skipinitialspace=True), [])]
+    except csv.Error:  # an item that is too long
+        return [line]
 
 
-def _kinds(rows: Sequence[Sequence[str]], width: int, decimal: str) -> tuple[str, ...]:
-    """What the columns are: of numbers or stamps where at least as many items are as words."""
-    found = []
-    for n in range(width):
-        count = Counter(kind_of(row[n], decimal) for row in rows)
-        most = max(("number", "stamp"), key=lambda kind: count[kind])
-        found.append("word" if count["word"] > count[most] else most)
-    return tuple(found)
-
-
-def _tried(lines: Sequence[str], separator: str, decimal: str) -> tuple[int, int, tuple[str, ...]]:
-    """How many rows there are if lines are separated so, how many columns are numbers, and what columns are."""
-    comment = re.compile(COMMENTS[separator])
-    split = [items(line, separator) for line in lines if line.strip() and not comment.match(line)]
-    score: Counter[int] = Counter()
-    for found in split:
-        numbers = sum(kind_of(one, decimal) in ("number", "stamp") for one in found)
-        score[len(found)] += numbers or (len(found) > 1 and LETTERS * any(map(is_time_title, found)))
-    for width, _ in score.most_common(3):
-        rows = [
-            one
-            for one in split
-            if len(one) == width and any(kind_of(i, decimal) in ("number", "stamp") for i in one)
-        ]
-        kinds = _kinds(rows, width, decimal)
-        fitting = [one for one in rows if _is_row(one, kinds, decimal)]
-        if width < 2 or not fitting or any(_is_split(item, decimal) for one in fitting for item in one):
-            continue
-        return len(fitting), sum(one != "word" for one in kinds), kinds
-    return 0, 0, ()
-
-
-def _is_split(item: str, decimal: str) -> bool:
-    """Whether an item is several numbers, so that something else separates items."""
-    parts = re.split(r"[\t;| ]+", item)
-    return (
-        len(parts) > 1
-        and kind_of(item, decimal) == "word"
-        and all(PYTHON[","].fullmatch(one) for one in parts if one)
-    )
-
-
-def _written(lines: Sequence[str], separators: Sequence[str]) -> tuple[str, str, tuple[str, ...]] | None:
-    """What separates items, what decimals are and what columns are; None of no table."""
-    quoted = any('"' in line for line in lines)
-    best, written = (0, 0.0), None
-    for separator in separators:
-        for decimal in ".," if separator != "," or quoted else ".":
-            rows, numbers, kinds = _tried(lines, separator, decimal)
-            score = (rows, numbers / max(len(kinds), 1))
-            if score > best and rows:
-                best, written = score, (separator, decimal, kinds)
-    single = {one: sum(kind_of(line.strip(), one) == "number" for line in lines) for one in ".,"}
-    decimal = max(single, key=lambda one: single[one])
-    by_comma = written is not None and written[0] == ","
-    above = [line for line in lines if not _is_pair(line) and not re.match(COMMENTS[","], line)]
-    alone = single[decimal] > best[0] or (by_comma and single[decimal] == best[0])
-    if alone and single[decimal] and not (by_comma and any("," in line for line in above)):
-        return ";", decimal, ("number",)  # a column without times
-    return written
-
-
-def _is_pair(line: str) -> bool:
-    """Whether a line is 1,5: a number, or two of them."""
-    return kind_of(line.strip(), ",") == "number"
+@lru_cache(maxsize=100_000)
+def kind_of(item: str, decimal: str) -> str:
+    """What an item is: "missing", "number", "stamp" or "word"."""
+    if item.casefold() in MISSING:
+        return "missing"
+    if NUMBERS[decimal].fullmatch(item):
+        return "number"
+    return "stamp" if is_stamp(item) else "word"
 
 
 def layout(path: Path, lines: Sequence[str], separators: Sequence[str] = SEPARATORS) -> TableLayout:
@@ -147,43 +99,106 @@ def layout(path: Path, lines: Sequence[str], separators: Sequence[str] = SEPARAT
     Raises InputError if there are no rows of numbers, if they can be read in two ways, or if titles and rows
     do not fit each other.
     """
-    intervals = stated_intervals([line for line in lines[:LINES] if not BEGINS.match(line)])
+    intervals = stated_intervals([line for line in lines[:LINES] if not re.match(r'[\s"]*[-+.,]?[0-9]', line)])
     lines = ["" if line.strip() in intervals else line for line in lines[:LINES]]
     if (written := _written(lines, separators)) is None:
         raise InputError(f"{path}: is no table of numbers; allowed: {ALLOWED}")
     separator, decimal, kinds = written
-    comment = re.compile(COMMENTS[separator])
+    comment = _comment(separator)
     text = [
         (n, items(line, separator)) for n, line in enumerate(lines) if line.strip() and not comment.match(line)
     ]
     start = _first_row(text, kinds, decimal)
     notes: list[str] = []
-    if start + 1 < len(text) and _are_channels(text[start : start + 3], kinds):
+    after = text[start + 1][1] if len(kinds) > 2 and start + 1 < len(text) else [""]
+    if text[start][1] == [str(n + 1) for n in range(len(kinds))] and after[0].startswith("0"):  # no time of 1
         notes.append(f"Line {text[start][0] + 1} numbers the columns, and is passed over.")
         start += 1
-    _check_groups(path, [found for _, found in text[start:]], kinds, decimal)
-    first = text[start][0]
-    rows = [found for _, found in text[start:]]
+    first, rows = text[start][0], [found for _, found in text[start:]]
+    _check_groups(path, [row for row in rows if len(row) == len(kinds)], kinds, decimal)
     whole = any(len(found) == len(kinds) and found[-1] for _, found in text[:start])
     ended = len(kinds) > 1 and not whole and all(len(one) == len(kinds) and not one[-1] for one in rows)
-    names = Titles(path, separator, decimal, len(kinds) - ended)
-    titles = names.read(text[:start], list(enumerate(lines[:first])))
-    titles += (("", None),) * ended
-    notes += names.notes
-    named = tuple((name or f"column_{n}", unit) for n, (name, unit) in enumerate(titles, 1))
+    reading = _Titles(path, separator, decimal, len(kinds) - ended, notes)
+    titles = [*reading.read(text[:start], lines[:first]), *[("", None)] * ended]
     lacking = [f"column_{n}" for n, (name, _) in enumerate(titles[: len(kinds) - ended], 1) if not name]
     if 0 < len(lacking) < len(kinds) - ended:
         notes.append(f"Columns without a title are called {first_names(lacking)}.")
+    named = tuple((name or f"column_{n}", unit) for n, (name, unit) in enumerate(titles, 1))
     return TableLayout(separator, decimal, first, named, kinds, tuple(notes), intervals)
 
 
-def _first_row(text: Sequence[tuple[int, list[str]]], kinds: Sequence[str], decimal: str) -> int:
+# --- separators, decimals, kinds and the first row ---
+
+
+def _written(lines: Sequence[str], separators: Sequence[str]) -> tuple[str, str, tuple[str, ...]] | None:
+    """What separates items, what decimals are and what columns are; None of no table.
+
+    The most rows count, then the largest share of columns that are numbers.
+    """
+    quoted = any('"' in line for line in lines)
+    best, written = (0, 0.0), None
+    for separator in separators:
+        for decimal in ".," if separator != "," or quoted else ".":
+            rows, kinds = _tried(lines, separator, decimal)
+            score = (rows, sum(one != "word" for one in kinds) / max(len(kinds), 1))
+            if score > best and rows:
+                best, written = score, (separator, decimal, kinds)
+    single = {one: sum(kind_of(line.strip(), one) == "number" for line in lines) for one in ".,"}
+    decimal = max(single, key=lambda one: single[one])
+    by_comma = written is not None and written[0] == ","
+    # 1,5 is a number, or two of them: titles with a comma tell
+    titled = any("," in line and kind_of(line.strip(), ",") != "number" for line in lines if line[:1] != "#")
+    if single[decimal] and (single[decimal] > best[0] or (by_comma and single[decimal] == best[0])):
+        return written if by_comma and titled else (";", decimal, ("number",))  # a column without times
+    return written
+
+
+def _tried(lines: Sequence[str], separator: str, decimal: str) -> tuple[int, tuple[str, ...]]:
+    """How many rows there are if lines are separated so, and what their columns are."""
+    comment = _comment(separator)
+    split = [items(line, separator) for line in lines if line.strip() and not comment.match(line)]
+    score: Counter[int] = Counter()  # of widths, by their numbers and by titles of times
+    numbers = [sum(kind_of(one, decimal) in ("number", "stamp") for one in found) for found in split]
+    for found, count in zip(split, numbers, strict=True):
+        score[len(found)] += count or (len(found) > 1 and 10**6 * any(map(is_time_title, found)))
+    for width, _ in score.most_common(3):
+        rows = [found for found, count in zip(split, numbers, strict=True) if len(found) == width and count]
+        kinds = tuple(_kind([row[n] for row in rows], decimal) for n in range(width))
+        fitting = [one for one in rows if _is_row(one, kinds, decimal)]
+        if width > 1 and fitting and not any(_is_split(item, decimal) for one in fitting for item in one):
+            return len(fitting), kinds
+    return 0, ()
+
+
+def _kind(column: Sequence[str], decimal: str) -> str:
+    """What a column is: of numbers or stamps where at least as many items are as words."""
+    count = Counter(kind_of(item, decimal) for item in column)
+    most = max(("number", "stamp"), key=lambda kind: count[kind])
+    return "word" if count["word"] > count[most] else most
+
+
+def _is_row(found: Sequence[str], kinds: Sequence[str], decimal: str) -> bool:
+    """Whether items are numbers and stamps where they belong, at least one of them."""
+    own = [kind_of(item, decimal) for item in found]
+    pairs = list(zip(own, kinds, strict=False))
+    fits = len(own) == len(kinds) and all(kind in ("word", one) or one == "missing" for one, kind in pairs)
+    return fits and any(one == kind != "word" for one, kind in pairs)
+
+
+def _is_split(item: str, decimal: str) -> bool:
+    """Whether an item is several numbers, so that something else separates items."""
+    parts = re.split(r"[\t;| ]+", item)
+    several = len(parts) > 1 and kind_of(item, decimal) == "word"
+    return several and all(NUMBERS[","].fullmatch(one) for one in parts if one)
+
+
+def _first_row(text: Lines, kinds: Sequence[str], decimal: str) -> int:
     """The index of the first row; one or two above a line of words alone, as the titles are, are none."""
     fits = [_is_row(found, kinds, decimal) for _, found in text]
     start, titled = fits.index(True), False
     for n, (_, found) in enumerate(text[: len(fits) - fits[::-1].index(True)]):
-        own = [kind_of(item, decimal) for item in found]
-        if len(own) == len(kinds) and "word" in own and not {"number", "stamp"} & {*own}:
+        own = {kind_of(item, decimal) for item in found}
+        if len(found) == len(kinds) and "word" in own and not {"number", "stamp"} & own:
             start = fits.index(True, n) if sum(fits[:n]) <= FEW and not (titled and any(fits[:n])) else start
             titled = True
     while start and any(_is_row(text[start - 1][1], kinds, one) for one in ".,"):
@@ -191,35 +206,151 @@ def _first_row(text: Sequence[tuple[int, list[str]]], kinds: Sequence[str], deci
     return start
 
 
-def _are_channels(rows: Sequence[tuple[int, list[str]]], kinds: Sequence[str]) -> bool:
-    """Whether the first of some rows has the numbers 1, 2, 3 of the columns, and is no step of the times."""
-    if len(rows) < 2 or len(kinds) < 3 or len(rows[0][1]) != len(kinds):
-        return False
-    numbered = any(rows[0][1] == [str(n) for n in range(base, base + len(kinds))] for base in (0, 1))
-    try:
-        times = [float(found[0].replace(",", ".")) for _, found in rows]
-    except ValueError:
-        return numbered
-    steps = [after - before for before, after in pairwise(times)]
-    return numbered and (
-        steps[0] <= 0.0 or (len(steps) > 1 and abs(steps[0] - steps[1]) > 0.01 * abs(steps[1]))
-    )
-
-
 def _check_groups(path: Path, rows: Sequence[Sequence[str]], kinds: Sequence[str], decimal: str) -> None:
     """Raise InputError if signs may stand between thousands or before decimals, and no number decides."""
-    found = [
-        row[n] for row in rows if len(row) == len(kinds) for n, kind in enumerate(kinds) if kind == "number"
-    ]
+    found = [row[n] for row in rows for n, kind in enumerate(kinds) if kind == "number"]
     sign, point = (",", ".") if decimal == "." else (".", ",")
     in_doubt = [one for one in found if sign in one and GROUPED.fullmatch(one)]
     pointed = [one for one in found if point in one]
     if decimal == "," and not in_doubt:  # then 1,234 is decimal or a thousand
         in_doubt, pointed = pointed, [one for one in pointed if not GROUPED.fullmatch(one)]
     if in_doubt and not pointed and not any(MANY_GROUPS.fullmatch(one) for one in found):
-        digits = in_doubt[0].replace(",", "").replace(".", "")
-        part = in_doubt[0].replace(",", ".")
+        digits, part = re.sub("[.,]", "", in_doubt[0]), in_doubt[0].replace(",", ".")
         raise InputError(
             f"{path}: {in_doubt[0]!r} may be {digits} or {part}; allowed: decimals with a point, or at least "
             "a number that decides what the sign is, such as 0,5"
         )
+
+
+# --- titles ---
+
+
+@dataclass
+class _Titles:
+    """The titles of a table's columns, from the lines above its rows; notes receive what was assumed."""
+
+    path: Path
+    separator: str
+    decimal: str
+    width: int
+    notes: list[str]
+
+    def read(self, text: Lines, lines: Sequence[str]) -> list[Title]:
+        """A name, empty if there is none, and a unit for each column.
+
+        text: lines above the rows, with their items. lines: all of them, also comments.
+        """
+        comment = _comment(self.separator)
+        plain = [(n, line) for n, line in enumerate(lines) if line.strip() and not comment.match(line)]
+        bare = [(n, comment.sub("", line, count=1)) for n, line in enumerate(lines) if comment.match(line)]
+        split = [[(n, found) for n, line in some if (found := self._fitted(line))] for some in (plain, bare)]
+        fitting = [one for one in split[0] or split[1] if self._may_be_titles(one[1])]
+        if not fitting:
+            self._check(text)
+            self.notes.append("There are no titles; columns are called by their numbers, column_1 and so on.")
+            return [("", None)] * self.width
+        units = next((n for n in range(1, len(fitting)) if _are_units(fitting[n][1])), len(fitting))
+        timed = [one for one in fitting[:units] if any(map(is_time_title, one[1]))]
+        place, titles = (timed or fitting[:units])[-1]
+        used, below = {place}, [""] * self.width
+        if units < len(fitting):
+            used, below = {place, fitting[units][0]}, fitting[units][1]
+        if passed := sum(n not in used for n, _ in plain):
+            self.notes.append(f"{passed} {'line' if passed == 1 else 'lines'} above the rows passed over.")
+        return [self._title(word, one.strip("[](){} ")) for word, one in zip(titles, below, strict=True)]
+
+    def _fitted(self, line: str) -> list[str] | None:
+        """The items of a line, None if they are not as many as those of a row."""
+        found = items(line, self.separator)
+        for gap in (r"\s+(?![\[(])", r"\s{2,}|\t"):  # a unit in brackets is no title
+            if self.separator == BLANKS and len(found) != self.width:
+                found = re.split(gap, line.strip())
+        if not any(found[self.width :]):
+            found = found[: self.width]
+        return found if len(found) == self.width and any(found) else None
+
+    def _may_be_titles(self, found: Sequence[str]) -> bool:
+        """Whether items are words rather than numbers, or stand behind a title of times."""
+        kinds = [kind_of(one, self.decimal) for one in found]
+        words = sum(one == "word" for one in kinds)
+        named = bool(words) and 2 * words >= sum(one != "missing" for one in kinds)
+        return "stamp" not in kinds and (named or is_time_title(found[0]))
+
+    def _check(self, text: Lines) -> None:
+        """Raise InputError if the line above the rows has titles, and not as many as the rows have items."""
+        number, found = text[-1] if text else (0, [])
+        if len(found) < 2 or not any(kind_of(one, self.decimal) == "word" for one in found):
+            return
+        phrase = {"\t": "tabs", BLANKS: "blanks", ",": "commas"}.get(self.separator, repr(self.separator))
+        raise InputError(
+            f"{self.path}: line {number + 1}: has {len(found)} titles, separated by {phrase}, above rows of "
+            f"{self.width} items; allowed: as many titles as items; where commas are decimal points items need "
+            "another separator, ';'"
+        )
+
+    def _title(self, word: str, below: str) -> Title:
+        """The name and the unit of a column, which may stand below its title."""
+        name, unit, note = split_title(word)
+        if below:
+            unit, note = read_unit(below, is_called_time(word))
+            note = f"column {name!r}: {note}" if note else ""
+            if unit is None and not note:
+                note = f"column {word!r}: {below!r} is no unit that pint reads; it counts as none"
+        if note:
+            self.notes.append(f"{note[0].upper()}{note[1:]}.")
+        return name, unit
+
+
+def _are_units(words: Sequence[str]) -> bool:
+    """Whether a line has units for titles above it: most of its items."""
+    bare = [one for word in words if (one := word.strip("[](){} ")) not in ("", "-")]
+    known = [one for one in bare if any(read_unit(one))]
+    return 2 * len(known) > len(bare) and not any(is_time_title(one) for one in words if one != "t")
+
+
+@lru_cache(maxsize=10_000)
+def is_time_title(title: str) -> bool:
+    """Whether a title is one of times or dates, by its name or its unit."""
+    name, unit, _ = split_title(title)
+    is_date = re.search(r"\b(date|datum|fecha)\b|日期", name, re.IGNORECASE)
+    return is_called_time(name) or (unit is not None and is_time(unit)) or is_date is not None
+
+
+# --- rates that lines above the rows give ---
+
+VALUE = (
+    r"[\s:=,;\t\"]*(?:[\[(]\s*(?P<before>[^\])]{1,12})\s*[\])])?[\s:=,;\t\"]*"
+    r"(?P<number>[0-9]*[.,]?[0-9]+(?:[eE][+-]?[0-9]+)?)(?![0-9]*[:/-][0-9])"
+    r"\s*\"?[\s,;\t]*[\[(]?\s*(?P<unit>[^\s,;\"\])]{1,12}(?: per \w+)?)?"
+)
+SAMPLED = r"(?:sampl\w*|scan\w*|acqui\w*|data|log\w*|record\w*|mess|abtast|采样)[ _-]*"
+RATE = re.compile(rf"(?:{SAMPLED}(?:rate|freq\w*|频率|率|速率)|\bfs\b|\bf_s\b|\brate\b){VALUE}", re.IGNORECASE)
+INTERVAL = re.compile(
+    rf"(?:{SAMPLED}(?:interval\w*|period|time|step|spacing|increment|zeit|periode|间隔|周期)|\bdt\b"
+    rf"|\bdelta[ _]?[xt]\b|(?:time|x)[ _-]*(?:step|interval|increment)|\binterval\b|zeitschritt){VALUE}",
+    re.IGNORECASE,
+)
+PER_SECOND = re.compile(r"([kM]?)(?:s|sa|samples?|scans|pts|次)(?:/| per )(?:s|sec|second|秒)|(k?)sps", re.I)
+
+
+def stated_intervals(lines: Sequence[str]) -> dict[str, float]:
+    """The times between rows [s] that some lines give as a rate or an interval, by the lines."""
+    found: dict[str, float] = {}
+    for line in lines:
+        rate, interval = RATE.search(line), INTERVAL.search(line)
+        match, usual = (rate, "Hz") if rate else (interval, "s")
+        if match is None:
+            continue
+        number, phrase = match["number"], (match["before"] or match["unit"] or usual).strip(" .")
+        is_thousands = rate and re.fullmatch(r"[1-9][0-9]{0,2},[0-9]{3}", number)
+        unit = read_unit(phrase, of_time=not rate)[0] or usual
+        if samples := PER_SECOND.fullmatch(phrase):
+            unit = f"{samples[1] or samples[2] or ''}Hz"
+        value = float(number.replace(",", "" if is_thousands else "."))
+        try:
+            known = float(scaled(np.array([value]), unit, usual, "")[0])
+        except InputError:
+            continue
+        if known > 0.0:
+            found[line.strip()] = 1.0 / known if rate else known
+    return found

@@ -19,13 +19,12 @@ import numpy.typing as npt
 from support_exudyn.files.series.named_series import NamedSeries
 from user_forces.values.value import InputError, short
 
-NO_UNIT = ("-", "--", "1", "no_units", "none", "unitless", "dimensionless", "[-]")  # of pure numbers
+NO_UNIT = ("", "-", "--", "1", "no_units", "none", "unitless", "dimensionless", "[-]")  # of pure numbers
 LONGEST = 60  # letters of a unit
-# letters, powers of at most two digits, and signs between them: pint computes what it is given, 9**9**9 too
 WORDS = re.compile(r"[A-Za-z0-9µμε°%Ω_²³⁻¹·⋅*/^() .+-]+")
 COSTLY = re.compile(
-    r"\d{3}|\d[eE]|[\d)]\s*(\*\*|\^)|(\*\*|\^)\s*-?\(|(\*\*|\^)[^*^]*(\*\*|\^)\s*[-\d.]*(\*\*|\^)"
-)
+    r"[0-9]{3}|[0-9][eE]|[0-9.)]\s*(\*\*|\^)"
+)  # powers of numbers, which pint computes: 9**9**9
 TORQUE = re.compile(r"(?<![A-Za-z_])([kMm]?N)(m|mm|cm)(?![A-Za-z_])")
 POWER = re.compile(r"(?<=[A-Za-zµμ])([2-4])(?![\d.])")
 JOINED = re.compile(r"(?<=[A-Za-z])-(?=[A-Za-z])")  # newton-meter
@@ -40,9 +39,9 @@ USUAL = {*SMALL, "h", "l", "g", "t", "°", "°C", "psi", "kgf", "tf", "lb", "µm
 # units in any case of letters that can be read in no other way; mPa and MPa, mN and MN can
 CASED = {
     one.casefold(): one
-    for one in (USUAL | {"knm", "ksi", "kips", "degF", "inches", "hPa", "kW", "N*m", "kN*m"})
-    if len(one) > 1 and one not in ("MPa", "MN", "mN", "mV", "MN*m")
-} | {"knm": "kN*m", "mpa": "MPa"}
+    for one in {*USUAL, "ksi", "kips", "degF", "inches", "hPa", "N*m", "kN*m"} - {"MN", "mN", "mV"}
+    if len(one) > 1
+} | {"knm": "kN*m"}
 WHOLE = {  # units as a whole, in any case of letters, that pint does not know or reads otherwise
     **dict.fromkeys(("r/min", "rev/min", "revs/min", "u/min", "upm", "rpm", "revolutions/min"), "rpm"),
     **dict.fromkeys(("r/s", "rev/s", "rps"), "turn/s"),
@@ -69,24 +68,18 @@ def _registry() -> Any:
     return pint.UnitRegistry()
 
 
-def as_pint_writes(text: str) -> str:
-    """A unit in words that pint reads as they are meant; "" of pure numbers."""
-    if text.strip() in NO_UNIT:
-        return ""
-    text = JOINED.sub("*", text.strip())
-    return POWER.sub(r"**\1", TORQUE.sub(r"\1*\2", text))
+def _as_pint_writes(text: str) -> str:
+    return POWER.sub(r"**\1", TORQUE.sub(r"\1*\2", JOINED.sub("*", text)))
 
 
 @lru_cache(maxsize=1000)
 def _unit(text: str) -> Any:
     """The unit of a text. Raises ValueError if pint reads none."""
     text = text.strip()
-    if text in ("", *NO_UNIT):
-        return _registry().Unit("")
-    if len(text) > LONGEST or not WORDS.fullmatch(text) or COSTLY.search(text):
+    if len(text) > LONGEST or (text and not WORDS.fullmatch(text)) or COSTLY.search(text):
         raise ValueError("no unit")
     try:
-        return _registry().Unit(as_pint_writes(text))
+        return _registry().Unit("" if text in NO_UNIT else _as_pint_writes(text))
     except Exception:  # of pint's many kinds, and of the grammar below it
         raise ValueError("no unit") from None
 
@@ -123,28 +116,22 @@ def scaled(values: npt.NDArray[np.float64], given: str, unit: str, where: str) -
 
     where: what they are of, for messages. Raises InputError if one is no unit, or if they are of two kinds.
     """
-    unit_checked(given, where)
-    unit_checked(unit, where)
-    if _unit(given) == _unit(unit) and given.strip() == unit.strip():
+    registry, known = _registry(), _unit(unit_checked(given, where))
+    if given.strip() == unit_checked(unit, where).strip():
         return values
-    registry, known = _registry(), _unit(given)
     if given.strip() == "g" and _base(unit) == registry.Unit("m/s**2"):
         known = registry.Unit("standard_gravity")
     elif given.strip() == "t" and _base(unit) == _base("N"):
         known = registry.Unit("force_metric_ton")
     elif _base(given) != _base(unit):
+        of_angle = _base(given) / _base(unit) in (registry.Unit("rad"), registry.Unit("1/rad"))
+        hint = "; an angle is no pure number: rpm and deg/s are rates of angles, Hz and 1/s are not"
         raise InputError(
             f"{where}: is in {given or 'pure numbers'}, which cannot be given in {unit or 'pure numbers'}; "
-            f"allowed: units of one kind{_hint(given, unit)}"
+            f"allowed: units of one kind{hint if of_angle else ''}"
         )
     converted: npt.NDArray[np.float64] = np.asarray(registry.Quantity(values, known).to(_unit(unit)).magnitude)
     return converted
-
-
-def _hint(given: str, unit: str) -> str:
-    if _base(given) / _base(unit) in (_registry().Unit("rad"), _registry().Unit("1/rad")):
-        return "; an angle is no pure number: rpm and deg/s are rates of angles, Hz and 1/s are not"
-    return ""
 
 
 def converted(series: NamedSeries, unit: str) -> npt.NDArray[np.float64]:
@@ -173,13 +160,14 @@ def read_unit(text: str, of_time: bool = False) -> tuple[str | None, str]:
     is the second and MIN the minute.
     """
     text = " ".join(unicodedata.normalize("NFKC", text).split())
-    if text in ("", *NO_UNIT):
+    small = text.casefold()
+    if text in NO_UNIT:
         return "", ""
-    if of_time and text.casefold() in OF_TIME:
-        return OF_TIME[text.casefold()], ""
-    if text.casefold() in WHOLE:
-        return WHOLE[text.casefold()], ""
-    if text.casefold() in ("ton", "tons"):
+    if of_time and small in OF_TIME:
+        return OF_TIME[small], ""
+    if small in WHOLE:
+        return WHOLE[small], ""
+    if small in ("ton", "tons"):
         return "t", f"unit {text!r} is read as the tonne of 1000 kg, and its weight where it is a force"
     if text in ("mpa", "mn", "Mn"):
         return None, f"unit {text!r} may be {'mPa or MPa' if text == 'mpa' else 'mN or MN'}; it counts as none"
@@ -191,8 +179,8 @@ def read_unit(text: str, of_time: bool = False) -> tuple[str | None, str]:
     found = LETTERS.sub(lambda word: _word(word.group(), whole), text)
     if not is_unit(found):
         return None, ""
-    assumed = any(_is_assumed(word, whole) for word in LETTERS.findall(text))
-    return as_pint_writes(found), f"unit {text!r} is read as {found}" if assumed else ""
+    assumed = any(_word(word, whole) != word and _is_cased(word, whole) for word in LETTERS.findall(text))
+    return _as_pint_writes(found), f"unit {text!r} is read as {found}" if assumed else ""
 
 
 def _word(word: str, upper: bool) -> str:
@@ -200,13 +188,13 @@ def _word(word: str, upper: bool) -> str:
     small = word.casefold()
     if small in NAMES:
         return NAMES[small]
-    if _is_assumed(word, upper):
+    if _is_cased(word, upper):
         return small if upper and small in OF_LENGTH else CASED[small]
-    return small if small != word and len(word) > 2 and not is_unit(word) else word
+    return small if len(word) > 2 and not is_unit(word) else word
 
 
-def _is_assumed(word: str, upper: bool) -> bool:
-    """Whether a word of a unit is read with other letters, capital or small, than it has."""
+def _is_cased(word: str, upper: bool) -> bool:
+    """Whether a word is a unit in other letters, capital or small, as Mpa and kn are."""
     small = word.casefold()
     if word in USUAL or small in NAMES:
         return False
@@ -219,8 +207,8 @@ PRODUCTS = {  # the only products: of v_m_s nobody knows whether it is a speed
     "N_m": "N*m", "kN_m": "kN*m", "MN_m": "MN*m", "N_mm": "N*mm", "N_s": "N*s", "kN_s": "kN*s",
     "kg_m2": "kg*m**2", "kg_m": "kg*m",
 }  # fmt: skip
-ENDINGS = {**{one: as_pint_writes(one) for one in SMALL}, **PRODUCTS}
-ABOVE = {**ENDINGS, "l": "l", "t": "t"}  # a "per"
+ENDINGS = {**{one: _as_pint_writes(one) for one in SMALL}, **PRODUCTS}
+ABOVE = {**ENDINGS, "l": "l", "t": "t", "": "1", "1": "1"}  # a "per"
 BELOW = {**ENDINGS, "s2": "s**2", "h": "h"}
 BRACKETS = re.compile(r"(.*\S)\s*(?:\[([^\[\]]*)\]|\(([^()]*)\)|\{([^{}]*)\})", re.DOTALL)
 # "time, s", "Pressure/MPa", "Force in kN", "Force kN"; before a stroke stands no unit, as in mm/s
@@ -241,62 +229,55 @@ def split_title(title: str) -> tuple[str, str | None, str]:
     one, as in `time, s`, `Pressure/MPa`, `Force in kN`, `Force kN`.
     """
     title = unicodedata.normalize("NFKC", title).strip() if not title.isascii() else title.strip()
+    unit: str | None
     if found := BRACKETS.fullmatch(title):
-        name, *insides = found.groups()
-        name = name.rstrip(" /") or name
-        text = next(one for one in insides if one is not None).strip()
-        if not text:
-            return name, None, ""
-        unit, note = read_unit(text, is_called_time(name))
-        if unit is None and not note:
+        text = (found[2] or found[3] or found[4] or "").strip()
+        name = found[1].rstrip(" /") or found[1]
+        unit, note = read_unit(text, is_called_time(name)) if text else (None, "")
+        if text and unit is None and not note:
             return title, None, f"column {title!r}: {text!r} is no unit that pint reads; it counts as none"
         return name, unit, f"column {name!r}: {note}" if note else ""
     words = title.split("_")
     for start in range(1, len(words)):
-        unit, note = _ending("_".join(words[:start]), "_".join(words[start:]))
-        if unit is None:
-            continue
-        if words[start - 1] in SMALL and start > 1:
-            return title, None, f"column {title!r}: its unit can be read in two ways; it counts as none"
         name = "_".join(words[:start])
-        return name, unit, f"column {name!r}: {note}" if note else ""
-    if (bare := BARE.fullmatch(title)) and (usual := _usual(bare[1], bare[5], bare[2] or bare[3] or "")):
-        return bare[1], usual[0], f"column {bare[1]!r}: {usual[1]}" if usual[1] else ""
+        unit, note = _ending(name, "_".join(words[start:]))
+        if unit is not None and start > 1 and words[start - 1] in SMALL:
+            return title, None, f"column {title!r}: its unit can be read in two ways; it counts as none"
+        if unit is not None:
+            return name, unit, f"column {name!r}: {note}" if note else ""
+    if bare := BARE.fullmatch(title):
+        unit, note = _usual(bare[1], bare[5], bare[2] or bare[3] or "")
+        if unit is not None:
+            return bare[1], unit, f"column {bare[1]!r}: {note}" if note else ""
     return title, None, ""
 
 
-def _usual(name: str, text: str, sign: str) -> tuple[str, str] | None:
+def _usual(name: str, text: str, sign: str) -> tuple[str | None, str]:
     """The unit, with a note, that stands in a title behind a sign or a blank; None if it is no usual one."""
     of_time = is_called_time(name)
     unit, note = read_unit(text, of_time)
-    words = [_word(word, False) for word in LETTERS.findall(text)]
-    known = text.casefold() in WHOLE or all(word.rstrip("2345") in USUAL for word in words)
-    if unit is None or not words or not (known or (of_time and is_time(unit))):
-        return None
-    if not of_time:  # "mm/s" is a unit and no name; "Force min" is the least, "Sensor N" a name
-        names = USUAL - {"t", "h", "l", "g"}
-        if (sign == "/" and name in names) or (not sign and (text in ("min", "ms", "um") or len(text) < 2)):
-            return (unit, note) if text == "°" else None
-    return unit, note
+    words = [_word(word, False).rstrip("2345") for word in LETTERS.findall(text)]
+    usual = text.casefold() in WHOLE or all(word in USUAL for word in words)
+    if unit is None or not words or not (usual or (of_time and is_time(unit))):
+        return None, ""
+    of_rate = sign == "/" and name in USUAL - {"t", "h", "l", "g"}  # "mm/s" is a unit and no name
+    is_name = not sign and (text in ("min", "ms", "um") or len(text) < 2)  # the least force, sensor N
+    return (None, "") if not of_time and text != "°" and (of_rate or is_name) else (unit, note)
 
 
 def _ending(name: str, text: str) -> tuple[str | None, str]:
     """The unit that an ending of a title stands for, None: for none; and a note."""
-    above, per, below = text.partition("_per_")
-    if not per and text.startswith("per_"):
-        above, per, below = "1", "per_", text[len("per_") :]
-    if not per:
-        if text in ENDINGS:
-            return ENDINGS[text], ""
-        of_time, small = is_called_time(name), text.casefold()
-        if of_time and small in OF_TIME:
-            return OF_TIME[small], ""
-        if small in ("ton", "tonf") or (small in CASED and small not in ("min", "lb", "µs", "ms")):
-            return read_unit(text)
-        return ("g", "") if small == "g" and name.casefold().startswith("acc") else (None, "")
-    over = "1" if above == "1" else ABOVE.get(above)
-    units = [BELOW.get(one) for one in below.split("_")]
-    if over is None or None in units:
-        return None, ""
-    words = "*".join(map(str, units))
-    return (f"{over}/({words})" if len(units) > 1 else f"{over}/{words}"), ""
+    above, per, below = f"_{text}".partition("_per_")
+    if per:
+        over, units = ABOVE.get(above[1:]), [BELOW.get(one) for one in below.split("_")]
+        product = "*".join(map(str, units))
+        known = over is not None and None not in units
+        return (f"{over}/({product})" if len(units) > 1 else f"{over}/{product}") if known else None, ""
+    if text in ENDINGS:
+        return ENDINGS[text], ""
+    small = text.casefold()
+    if is_called_time(name) and small in OF_TIME:
+        return OF_TIME[small], ""
+    if small in ("ton", "tonf") or (small in CASED and small not in ("min", "lb", "µs", "ms")):
+        return read_unit(text)
+    return ("g", "") if small == "g" and name.casefold().startswith("acc") else (None, "")

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from scipy import io
 
 from support_exudyn.files.series.named_series import SeriesFile
 from support_exudyn.files.series.read import read_series
@@ -22,7 +21,6 @@ Read = dict[str, tuple[str | None, list[float], list[float]]]
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """One for all examples."""
     return tmp_path_factory.mktemp("tables")
 
 
@@ -42,47 +40,32 @@ def check(found: SeriesFile, expected: Read) -> None:
         np.testing.assert_array_equal(one.values, values)
 
 
-TWO: Read = {"x": ("mm", [0.0, 0.5], [1.5, -2.0])}
-
-
 @pytest.mark.parametrize(
     "text",
     [
         "time_s,x_mm\n0,1.5\n0.5,-2\n",
         "time_ms;x [mm]\n0;1,5\n500;-2\n",
-        "time_ms\tx (mm)\n0\t1,5\n500\t-2,0\n",
         "Time [s]   x [mm]\n  0.0   1.5\n  0.5  -2.0\n",
         '"time_s","x_mm"\r\n"0","1.5"\r\n"0.5","-2"\r\n',
-        "\ufefftime_s,x_mm\n\n0, 1.5\n# a remark\n0.5 ,-2e0\n",
-        "time;x\ns;mm\n0;1.5\n0.5;-2\n",
+        "\ufefftime_s,x_mm\n\n0, 1.5D0\n# a remark\n0.5 ,-2e0\n",
         "time;x\n[s];[mm]\n0;1,5\n0,5;-2\n",
-        "# t [s] x [mm]\n0 1.5\n0.5 -2\n",
         "% time x\n% [s] [mm]\n0 1.5\n0.5 -2\n",
         "; logger 5\ntime_s,x_mm\n; begins\n0,1.5\n0.5,-2\n",
-        "time_s;x_mm;\n0;1.5;\n0.5;-2;\n",
         "time_s;x_mm\n0;1.5;\n0.5;-2;\n",
-        "time_s,x_mm\n0,1.5D0\n0.5,-2d+00\n",
-        "time_s,x_mm\n0.5,-2\n0,1.5\n",
-        "time_s,x_mm\n0,7\n0,1.5\n0.5,-2\n",
-        "time_s,x_mm\n,7\n0,1.5\n0.5,-2\n",
-        "Logger 7\nSite;north\ntime_s;x_mm\n0;1,5\n0,5;-2\n",
-        "time_s,x_mm\n0,1.5\n0.5,-2\n\nEnd of data\nMax,1.5\n",
-        "   time_s ,  x_mm \n   0   ,  1.5  \n  0.5  , -2   \n",
         'Zeit in s,x/mm\n"0,0","1,5"\n"0,5","-2,0"\n',
         '"Time\n(s)","x\n(mm)"\n0,1.5\n0.5,-2\n',
-        "Run time (s)  x (mm)\n0.0  1.5\n0.5  -2\n",
         "Time (Second)|x, mm\n0|1.5\n0.5|-2\n",
-        "TIME [S]\tx_MM\n0\t1.5\n0.5\t-2\n",
         "Kanal;CH1\ntime;x\ns;mm\nDaten:\n0;1,5\n0,5;-2\n",
         "time_s,x_mm\n0,1.5\n0.5,-2\n".encode("utf-16"),
         "time_s,x_mm\n0,1.5\n0.5,-2\n".encode("utf-16-le"),
         "时间(s),x\uff08mm\uff09\n0,1.5\n0.5,-2\n".encode("gbk"),
-        "time,x\ns,mm\nVolt,Volt\n0,1.5\n0.5,-2\n",
         "2,2\ntime_s,x_mm\n0,1.5\n0.5,-2\n",
+        "TIME [S]\tx_MM\n0\t1.5\n0.5\t-2\n\nEnd of data\nMax\t1.5\n",
+        "Run time (s)  x (mm)\n0.0  1.5\n0.5  -2\n",
     ],
 )
 def test_the_same_table_is_read_however_it_is_written(folder: Path, text: str | bytes) -> None:
-    check(read(folder, text), TWO)
+    check(read(folder, text), {"x": ("mm", [0.0, 0.5], [1.5, -2.0])})
 
 
 @pytest.mark.parametrize(
@@ -90,80 +73,64 @@ def test_the_same_table_is_read_however_it_is_written(folder: Path, text: str | 
     [
         ("Time;F_kN\n2023-05-04 06:00:00.25;1\n2023-05-04 06:00:01,5;2\n", [0.0, 1.25]),
         ("Timestamp,F_kN\n2023-05-04T06:00:00Z,1\n2023-05-04T08:00:01.000+02:00,2\n", [0.0, 1.0]),
-        ("t,F_kN\n2023-05-04T23:59:59.5+08:00,1\n2023-05-05T00:00:00.5+0800,2\n", [0.0, 1.0]),
         ("DateTime,F_kN\n2023/05/04 06:00,1\n2023/05/05 06:00,2\n", [0.0, 86400.0]),
         ("Zeit;F_kN\n04.05.2023 06:00;1\n03.06.2023 06:00;2\n", [0.0, 30 * 86400.0]),  # day first
         ("Zeit;F_kN\n28.02.24 23:59:59;1\n01.03.24 00:00:00;2\n", [0.0, 86401.0]),  # a leap year
         ("Time,F_kN\n05/04/2023 11:59:59 AM,1\n05/04/2023 12:00:00 PM,2\n", [0.0, 1.0]),
         ("Time,F_kN\n05/31/2023 11:59:59 PM,1\n06/01/2023 12:00:00 AM,2\n", [0.0, 1.0]),  # month first
         ("Time,F_kN\n31/05/2023 23:59:59,1\n01/06/2023 00:00:00,2\n", [0.0, 1.0]),
-        ("Time,F_kN\n01/05/2023 06:00:00,1\n02/05/2023 06:00:00,2\n", [0.0, 86400.0]),
         ("Time,F_kN\n4-May-2023 6:00:00,1\n04 May 2023 06:00:00.125,2\n", [0.0, 0.125]),
         ("Time,F_kN\n20230504T060000,1\n20230504T060001.5,2\n", [0.0, 1.5]),
         ("时间,F_kN\n2023年5月4日 06:00:00,1\n2023年5月4日 06:00:02,2\n", [0.0, 2.0]),
-        ("Time,F_kN\n06:00:00.25,1\n06:00:01,2\n", [0.0, 0.75]),
         ("Time,F_kN\n23:59:59.5,1\n00:00:01.5,2\n", [0.0, 2.0]),  # over midnight
         ("Time;F_kN\n06:00:00:250;1\n06:00:00:750;2\n", [0.0, 0.5]),
         ("Time,F_kN\n59:59.0,1\n00:00.5,2\n", [0.0, 1.5]),  # a spreadsheet's mm:ss.0, over the hour
-        ("Date,Time,F_kN\n2023/05/04,23:59:59,1\n2023/05/05,00:00:01,2\n", [0.0, 2.0]),
         ("Date Time F_kN\n2023-05-04 23:59:59 1\n2023-05-05 00:00:01 2\n", [0.0, 2.0]),
         ("Date,F_kN\n2023-05-04,1\n2023-05-06,2\n", [0.0, 2 * 86400.0]),
         ("Date,F_kN\n45050.25,1\n45050.75,2\n", [0.0, 43200.0]),
-        ("timestamp,F_kN\n1683180000.25,1\n1683180000.5,2\n", [0.0, 0.25]),
         ("time,F_kN\n1683180000250,1\n1683180000500,2\n", [0.0, 0.25]),
         ("Sampling rate: 1000 Hz\nF_kN\n1\n2\n", [0.0, 1e-3]),
         ("Sample interval,0.001\nF_kN,x_mm\n1,\n2,\n", [0.0, 1e-3]),
-        ("dt=0.01\nF_kN x_mm\n1 nan\n2 nan\n", [0.0, 0.01]),
         ("fs [Hz] 500\nF_kN\n1\n2\n", [0.0, 2e-3]),
         ("# Sample Rate (kHz): 2,0\nF in kN\n1,0\n2,0\n", [0.0, 5e-4]),
         ("Scan rate;250 S/s\nF_kN;x_mm\n1;\n2;\n", [0.0, 4e-3]),
-        ("Abtastrate = 1 kHz\nF_kN\n1\n2\n", [0.0, 1e-3]),
         ("采样频率: 100Hz\nF_kN\n1\n2\n", [0.0, 1e-2]),
-        ("#Date: 2023-05-04\n#fs = 200\n1.0\n2.0\n".replace("1.0", "F_kN\n1.0"), [0.0, 5e-3]),
-        ("Sampling rate,1,000 Hz\nF_kN\n1\n2\n", [0.0, 1e-3]),
         ("Time step (ms): 5\nF_kN\n1\n2\n", [0.0, 5e-3]),
     ],
 )
 def test_times_are_seconds_from_the_first_stamp_or_of_the_rate(
     folder: Path, text: str, times: list[float]
 ) -> None:
-    found = read(folder, text)
-    check(read_series(found.path, names=["F"]), {"F": ("kN", times, [1.0, 2.0])})
+    found = read(folder, text, names=["F"])
+    check(found, {"F": ("kN", times, [1.0, 2.0])})
     assert any("from the first" in note or "from 0 s" in note for note in found.notes)
 
 
-def test_a_rate_can_be_given(folder: Path) -> None:
-    text = "F_kN,x_mm\n1,2\n2,3\n"
-    check(read(folder, text, rate=100.0), {"F": ("kN", [0, 0.01], [1, 2]), "x": ("mm", [0, 0.01], [2, 3])})
-    coarse = "Time,x_mm\n06:00:00,1\n06:00:00,2\n06:00:00,3\n06:00:01,4\n"
-    check(read(folder, coarse, rate=4.0), {"x": ("mm", [0, 0.25, 0.5, 0.75], [1, 2, 3, 4])})
-    with pytest.raises(
-        InputError, match=r"line 3, column 'Time': at least every other row repeats .* --rate 10"
-    ):
-        read(folder, coarse)
+def test_a_rate_is_used_where_a_file_has_no_times_that_change(folder: Path) -> None:
+    text, coarse = "F_kN\n1\n2\n", "Time,F_kN\n06:00:00,1\n06:00:00,2\n"
+    for table in (text, coarse):
+        check(read(folder, table, rate=100.0), {"F": ("kN", [0.0, 0.01], [1.0, 2.0])})
     assert any("is not used" in note for note in read(folder, "time_s,x\n0,1\n3,2\n", rate=10.0).notes)
-    with pytest.raises(InputError, match=r"a.csv: rate = -1.0: allowed: > 0"):
-        read(folder, text, rate=-1.0)
-    with pytest.raises(InputError, match=r"its header gives two rates, 'fs = 10 Hz' and 'dt = 5 s'"):
-        read(folder, f"dt = 5 s\nfs = 10 Hz\n{text}")
+    for table, rate, message in (
+        (coarse, None, r"line 3, column 'Time': at least every other row repeats .* --rate 10"),
+        (text, -1.0, r"a.csv: rate = -1.0: allowed: > 0"),
+        (f"dt = 5 s\nfs = 10 Hz\n{text}", None, r"its header gives two rates, 'fs = 10 Hz' and 'dt = 5 s'"),
+    ):
+        with pytest.raises(InputError, match=message):
+            read(folder, table, rate=rate)
 
 
 @pytest.mark.parametrize(
     ("cells", "value"),
     [
-        (["", "--", "1.#QNAN"], NAN),
-        (["n/a", "#N/A", "-"], NAN),
-        (["Inf", "-inf", "1.#INF"], NAN),
-        (["+1500", "1500.", "1.5e3"], 1500.0),
-        (['"1,500.0"', '"1,500"', "1500"], 1500.0),
-        (['" 1500 "', "1.5D3", '"1500.00"'], 1500.0),
+        (["", "--", "1.#QNAN", "n/a", "#N/A", "-inf"], NAN),
+        (["+1500", "1500.", "1.5e3", '"1,500.0"', '" 1500 "', "1.5D3"], 1500.0),
     ],
 )
 def test_cells_are_numbers_or_nothing(folder: Path, cells: list[str], value: float) -> None:
     rows = "".join(f"{n}.5,{cell}\n" for n, cell in enumerate(["0", *cells]))
-    assert read(folder, f"time_s,x\n{rows}").series["x"].values[1:].tolist() == pytest.approx(
-        [value] * 3, nan_ok=True
-    )
+    values = read(folder, f"time_s,x\n{rows}").series["x"].values[1:]
+    np.testing.assert_array_equal(values, [value] * len(cells))
 
 
 @pytest.mark.parametrize("number", ["1.234,5", "1 234,5", "1\u00a0234,5", "1'234,5", "1234,5"])
@@ -173,86 +140,47 @@ def test_signs_stand_between_thousands(folder: Path, number: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "note"),
+    ("text", "names", "times", "note"),
     [
-        ("time_s,x_mm\n0.5,-2\n0,1.5\n", "go back at line 3; rows are sorted"),
+        ("time_s,x_mm\n0.5,-2\n0,1.5\n", "x", [0, 0.5], "go back at line 3; rows are sorted"),
+        ("time_s,x\n0,7\n# x\n0,1.5\n0.5,-2\n", "x", [0, 0.5], "1 are left out, the first is line 2"),
+        ("time_s,x\n,7\n0,1\n0.5,2\n", "x", [0, 0.5], "without a time are left out: 1, the first is line 2"),
+        ("Logger 7\nSite;north\ntime_s;x\n0;1\n1;2\n", "x", [0, 1], "2 lines above the rows passed over"),
+        ("time_s,x\n0,1\n1,2\nEnd\n", "x", [0, 1], "1 line below the rows passed over"),
+        ("time_s;v_m_s\n0;1.5\n1;-2\n", "v_m_s", [0, 1], "'v_m_s': its unit can be read in two ways"),
+        ("time_s,x,x\n0,1,2\n1,2,3\n", "x x#2", [0, 1], "Several columns are called 'x'; the later"),
+        ("time_s,x,\n0,1,2\n1,2,3\n", "x column_3", [0, 1], "Columns without a title are called 'column_3'"),
+        ("time,a,b\ns,m,m\n1,2,3\n0,5,6\n1,7,8\n2,7,8\n", "a b", [0, 1, 2], "Line 3 numbers the columns"),
+        ("time_s,F [KN]\n0,1\n1,2\n", "F", [0, 1], "Column 'F': unit 'KN' is read as kN"),
+        ("time_s,p [mpa]\n0,1\n1,2\n", "p", [0, 1], "'mpa' may be mPa or MPa; it counts as none"),
+        ("time_s,F (Ton)\n0,1\n1,2\n", "F", [0, 1], "'Ton' is read as the tonne of 1000 kg, and its weight"),
+        ("Zeit (s);Weg (µm)\n0;1\n1;2\n".encode("cp1252"), "Weg", [0, 1], "was read as Windows-1252"),
+        ("时间(s),压力(MPa)\n0,1\n1,2\n".encode("gbk"), "压力", [0, 1], "was read as GBK"),
+        ("Time,x\n23:59:59,1\n00:00:01,2\n", "x", [0, 2], "runs over midnight"),
+        ("time_s,x\n0,inf\n1,2\n", "x", [0, 1], "x: infinite values count as not known: 1"),
+        ("Lauf [s];Weg;F\n0,0;1,5;7\n0,5;-2,0;7\n", "Weg F", [0, 0.5], "'Lauf' is taken for the times"),
+        ("time_s,x,time_s,y\n0,1,0,3\n1,2,1,4\n", "x y", [0, 1], "2 columns of times"),
+        ('time_s,x,"Note"\n0,1.5,"ok"\n0.1,,"a, b"\n', "x", [0, 0.1], "no numbers are left out: 'Note'"),
         (
-            "time_s,x_mm\n0,7\n# x\n0,1.5\n0.5,-2\n",
-            "of rows of one time the last stays, 1 are left out, the first is line 2",
+            "Datum;Zeit [s];x;Status\r\n12.03.2024;0,0;1,5;OK\r\n12.3.24;0,1;1,7;no\r\n12.3.24;0,2;;\r\n",
+            "x", [0, 0.1, 0.2], "no numbers are left out: 'Status', 'Datum'",
         ),
-        ("time_s,x_mm\n,7\n0,1.5\n0.5,-2\n", "Rows without a time are left out: 1, the first is line 2"),
-        ("Logger 7\nSite;north\ntime_s;x_mm\n0;1,5\n0,5;-2\n", "2 lines above the rows passed over"),
-        ("time_s,x\n0,1\n1,2\nEnd\n", "1 line below the rows passed over"),
-        ("time_s;x_mm;v_m_s\n0;1.5;1\n0.5;-2;1\n", "'v_m_s': its unit can be read in two ways"),
-        ("time_s,x,x\n0,1,2\n1,2,3\n", "Several columns are called 'x'; the later ones are x#2 and so on"),
-        ("time_s,x,\n0,1,2\n1,2,3\n", "Columns without a title are called 'column_3'"),
-        ("time,a,b\ns,m,m\n1,2,3\n0,5,6\n1,7,8\n2,7,8\n", "Line 3 numbers the columns"),
-        ("time_s,F [KN]\n0,1\n1,2\n", "Column 'F': unit 'KN' is read as kN"),
-        ("time_s,p [mPa]\n0,1\n1,2\n", "'mPa' is a thousandth of Pa; MPa has a capital M"),
-        ("time_s,p [mpa]\n0,1\n1,2\n", "'mpa' may be mPa or MPa; it counts as none"),
-        ("time_s,F (Ton)\n0,1\n1,2\n", "'Ton' is read as the tonne of 1000 kg, and its weight"),
-        ("Zeit (s);Weg (µm)\n0;1\n1;2\n".encode("cp1252"), "was read as Windows-1252"),
-        ("时间(s),压力(MPa)\n0,1\n1,2\n".encode("gbk"), "was read as GBK"),
-        ("Date,x\n02/01/2023 06:00:00,1\n03/01/2023 06:00:00,2\n", "read with the day before the month"),
-        ("Time,x\n23:59:59,1\n00:00:01,2\n", "runs over midnight"),
-        ("Zeit,Weg,Note\n0,1,a\n1,2,b\n", "Columns that are no numbers are left out: 'Note'"),
-        ("time_s,x\n0,inf\n1,2\n", "x: infinite values count as not known: 1"),
-    ],
-)
-def test_what_a_reader_has_to_know_is_told(folder: Path, text: str | bytes, note: str) -> None:
-    assert any(note in one for one in read(folder, text, units={"Zeit": "s"}).notes)
-
-
-def test_several_columns_of_times_are_of_what_stands_to_their_right(folder: Path) -> None:
-    found = read(folder, "time_s,x_mm,time_s,y_kN\n0,1,0,3\n1,2,0.5,4\n,,1,5\n")
-    check(found, {"x": ("mm", [0.0, 1.0], [1.0, 2.0]), "y": ("kN", [0.0, 0.5, 1.0], [3.0, 4.0, 5.0])})
-    assert any("2 columns of times" in one for one in found.notes)
-
-
-@pytest.mark.parametrize(
-    ("text", "others"),
-    [
-        ("Datum;Zeit [s];Weg [mm];Status\r\n12.03.2024;0,0;1,5;OK\r\n12.3.24;0,1;1,7;no\r\n12.3.24;0,2;;\r\n",
-         "'Status', 'Datum'"),
-        ('time_s,Weg_mm,"Note"\n0,1.5,"ok"\n0.1,1.7,"a, b"\n0.2,,\n', "'Note'"),
-        ("T\n\nstamp\ttime\tWeg\n\t[s]\t[mm]\n10:00:00\t0,0\t1,5\n10:00:01\t0,1\t1,7\n:\t0,2\t\n", "'stamp'"),
-        ("time_s,Weg_mm,Note\n1D-1,1.7D0,x\n0,1.5,x\n0.2,NaN,y\n", "'Note'"),
+        ("ID,T [degC],t_s\n1,20,0\n2,21,1\n", "ID T", [0, 1], ""),
     ],
 )  # fmt: skip
-def test_columns_of_words_are_left_out_and_told(folder: Path, text: str, others: str) -> None:
+def test_what_was_assumed_is_noted(
+    folder: Path, text: str | bytes, names: str, times: list[float], note: str
+) -> None:
     found = read(folder, text)
-    check(found, {"Weg": ("mm", [0.0, 0.1, 0.2], [1.5, 1.7, NAN])})
-    assert f"Columns that are no numbers are left out: {others}." in found.notes
+    assert list(found.series) == names.split()
+    assert found.series[names.split()[0]].time == pytest.approx(times)
+    assert not note or any(note in one for one in found.notes)
 
 
-def test_the_only_column_in_a_unit_of_time_is_the_times(folder: Path) -> None:
-    found = read(folder, "Lauf [s];Weg [mm];Kraft\n0,0;1,5;7\n0,5;-2,0;7\n")
-    assert found.series["Weg"].time.tolist() == [0.0, 0.5]
-    assert found.notes == ("Column 'Lauf' is taken for the times: it alone is in a unit of time.",)
-    with pytest.raises(InputError, match="has no times"):
-        read(folder, "Beginn [s];Ende [s]\n0,0;1,5\n0,5;2,0\n")
-    text = "Zeit,Weg_mm\n0,5\n100,6\n"
-    with pytest.raises(InputError, match=r"has no times; .* its numbers are 'Zeit', 'Weg'"):
-        read(folder, text)
-    check(read(folder, text, units={"Zeit": "ms"}), {"Weg": ("mm", [0.0, 0.1], [5.0, 6.0])})
-
-
-def test_a_temperature_is_no_time(folder: Path) -> None:
-    found = read(folder, "time_s,T [degC],t,x_m\n0,20,1,5\n1,21,2,6\n")
-    assert list(found.series) == ["T", "t", "x"]
-    assert list(read(folder, "T,t_s\n20,0\n21,1\n").series) == ["T"]
-    assert list(read(folder, "T_s,x\n0,20\n1,21\n").series) == ["x"]
-    io.savemat(folder / "a.mat", {"t_s": np.arange(3.0), "T": np.full(3, 20.0)})
-    assert list(read_series(folder / "a.mat").series) == ["T"]
-
-
-def test_a_unit_is_asked_for_and_given_by_a_pattern(folder: Path) -> None:
-    text = "0 1\n1 2\n"
-    with pytest.raises(InputError, match=r"'column_1': have no unit; allowed: .*time_s"):
-        read(folder, text)
-    check(
-        read(folder, text, units={"column_1": "ms", "column_*": "KN"}), {"column_2": ("kN", [0, 1e-3], [1, 2])}
-    )
+def test_a_unit_is_given_by_a_pattern(folder: Path) -> None:
+    asked = {"column_1": "ms", "column_*": "KN"}
+    check(read(folder, "0 1\n1 2\n", units=asked), {"column_2": ("kN", [0, 1e-3], [1, 2])})
+    check(read(folder, "Zeit,Weg_mm\n0,5\n100,6\n", units={"Zeit": "ms"}), {"Weg": ("mm", [0, 0.1], [5, 6])})
 
 
 @pytest.mark.parametrize(
@@ -260,33 +188,23 @@ def test_a_unit_is_asked_for_and_given_by_a_pattern(folder: Path) -> None:
     [
         ("time_s,x_mm\n0,5,1,2\n1,5,1,2\n", "line 1: has 2 titles, .* above rows of 4 items"),
         ("time_s;x\n1;1,234\n2;5,678\n", "'1,234' may be 1234 or 1.234; allowed: decimals with a point, or"),
-        ('time_s,x\n0,1\n1,"1,234"\n', "'1,234' may be 1234 or 1.234"),
-        ("time_s,x\n0,1\n1,abc\n", "line 3, column 'x': 'abc'; allowed: a number such as 12.5"),
         ("time_s,x\n0,1\n1,abc\n2,3\n", "line 3, column 'x': 'abc'; allowed: a number such as 12.5"),
-        ("time_s,x_m,n\n0,1,a\n1,2,a\n2,y,a\n", "line 4, column 'x': 'y'; allowed: a number such as 12.5"),
         ("time_s,x_m,n\n0,1,a\n1,2,a\n2,y\n", "line 4: has 2 items; allowed: 3"),
         ("time_s;x\n0;1,5\n1;1.5\n", "line 2, column 'x': '1,5'; allowed: a number such as 12.5"),
-        ("time_s,x\n0,1\n1\n", "line 3: has 1 items; allowed: 2"),
-        (
-            "Time,x\n2023-05-04 06:00,1\n2023-05-32 06:00,1\n",
-            "line 3, column 'Time': '2023-05-32 06:00'; allowed: a date",
-        ),
+        ("Time,x\n2023-05-04 06:00,1\n2023-05-32 06:00,1\n", "line 3, column 'Time': .*; allowed: a date"),
+        ("Date,x\n02/01/2023 06:00,1\n03/01/2023 06:00,2\n", "line 2, .*allowed: dates with the year first"),
         ("time,x\n0,1\n1,2\n", "column 'time': have no unit; allowed: one in the title, such as time_s"),
         ("time_kN,x\n0,1\n1,2\n", "are in 'kN'; allowed: a unit of time"),
         ("time_s,x\n0,1\n1,2\n\ntime_s,x\n2,3\n", "line 5, column 'time': 'time_s'; allowed: a number"),
-        ("a,b\n0,1\n1,2\n", "has no times; allowed: a column time_s"),
+        ("a,b\n0,1\n1,2\n", "has no times; allowed: a column time_s.*its numbers are 'a', 'b'"),
+        ("Beginn [s];Ende [s]\n0,0;1,5\n0,5;2,0\n", "has no times"),
         ("time_s,x\ninf,1\n1,2\n", "line 2 is infinite"),
-        ("hello, world\n", "is no table of numbers"),
         ("It is late, says she,\nand goes, as ever,\n", "is no table of numbers"),
-        (b"time_s,x\n0,1\n\0,2\n", "byte 13 is 0, which no text has|of no kind that can be read"),
         (b"", "is empty; allowed: "),
-        (
-            "<!DOCTYPE html><html><table><tr><td>1</table></html>",
-            "is a page of HTML, .*allowed: the table saved",
-        ),
+        ("<!DOCTYPE html><html><table>", "is a page of HTML, .*allowed: the table saved"),
         (
             b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1" + bytes(99),
-            r"is an old workbook of Excel \(.xls\), .*allowed: the table",
+            r"is an old workbook of Excel \(.xls\), .*allowed: the",
         ),
         (b"TDSm" + bytes(99), "is a TDMS file of LabVIEW"),
         (b"\x1f\x8b\x08" + bytes(99), r"is a compressed file \(gzip\), .*unpacked"),
@@ -314,6 +232,4 @@ def test_numbers_are_read_as_the_same_bits(
     if comma and separator != ",":
         lines = [line.replace(".", ",") for line in lines]
     found = read(folder, "\n".join([separator.join(["time_s", "x_mm"]), *lines]) + "\n").series["x"]
-    expected = sorted(rows)
-    assert found.time.tolist() == [row[0] for row in expected]
-    assert found.values.tolist() == [row[1] for row in expected]
+    assert [*zip(found.time.tolist(), found.values.tolist(), strict=True)] == sorted(rows)

@@ -6,12 +6,9 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
-from support_exudyn.files.series.adams_results import adams_unit
 from support_exudyn.files.series.named_series import NamedSeries
-from support_exudyn.files.series.units import converted, is_unit, split_title
+from support_exudyn.files.series.units import converted, read_unit, split_title
 from user_forces import InputError
 
 
@@ -22,30 +19,20 @@ def series(unit: str | None) -> NamedSeries:
 @pytest.mark.parametrize(
     ("given_unit", "wanted", "factor"),
     [
-        ("mm", "m", 1e-3),
         ("inch", "mm", 25.4),
         ("deg", "rad", math.pi / 180.0),
         ("rpm", "rad/s", math.pi / 30.0),
-        ("kN", "N", 1e3),
         ("Nm", "kN*m", 1e-3),
         ("lbf", "N", 4.4482216152605),
-        ("bar", "MPa", 0.1),
         ("l/min", "m^3/s", 1e-3 / 60.0),
-        ("%", "", 0.01),
         ("m/s2", "mm/s^2", 1e3),
         ("g", "m/s^2", 9.80665),
         ("g", "kg", 1e-3),
-        ("J", "N m", 1.0),
         ("t", "N", 9806.65),
-        ("tf", "kN", 9.80665),
     ],
 )
 def test_values_are_converted(given_unit: str, wanted: str, factor: float) -> None:
     assert converted(series(given_unit), wanted) == pytest.approx(2.0 * factor, rel=1e-14)
-
-
-def test_temperatures_have_an_offset() -> None:
-    assert converted(series("degC"), "K") == pytest.approx(275.15)
 
 
 @pytest.mark.parametrize(
@@ -68,49 +55,37 @@ def test_nothing_is_guessed(given_unit: str | None, wanted: str, message: str) -
     [
         ("time_s", "time", "s"),
         ("tip.x_mm", "tip.x", "mm"),
-        ("tip.x [mm]", "tip.x", "mm"),
         ("Force (kN)", "Force", "kN"),
         ("rear_link.angular_velocity_deg_per_s", "rear_link.angular_velocity", "deg/s"),
         ("a_m_per_s2", "a", "m/s**2"),
         ("k_kN_per_mm", "k", "kN/mm"),
         ("d_N_s_per_m", "d", "N*s/m"),
         ("M_N_m", "M", "N*m"),
-        ("n_per_s", "n", "1/s"),
         ("mu [-]", "mu", ""),
-        ("mu [1]", "mu", ""),
         ("x []", "x", None),
         ("pin_A", "pin_A", None),  # no amperes
         ("force [rear]", "force [rear]", None),
         ("v_m_s", "v_m_s", None),  # metres times or by seconds
         ("Time (Second)", "Time", "second"),
-        ("TIME [S]", "TIME", "s"),
         ("time, s", "time", "s"),
-        ("Zeit/min", "Zeit", "min"),
-        ("t/s", "t", "s"),
         ("Pressure/MPa", "Pressure", "MPa"),
         ("v / (mm/s)", "v", "mm/s"),
-        ("p / bar", "p", "bar"),
         ("mm/s", "mm/s", None),
         ("Force in kN", "Force", "kN"),
         ("Force kN", "Force", "kN"),
         ("Force min", "Force min", None),  # the least
-        ("Sensor N", "Sensor N", None),
         ("Load cell, rear", "Load cell, rear", None),
         ("F_KN", "F", "kN"),
         ("p (Mpa)", "p", "MPa"),
-        ("p (mPa)", "p", "mPa"),
         ("p (mpa)", "p", None),
         ("F (Ton)", "F", "t"),
         ("F (tonf)", "F", "tf"),
         ("n [rev/min]", "n", "rpm"),
-        ("n [r/min]", "n", "rpm"),
         ("T (℃)", "T", "degC"),
-        ("T [°C]", "T", "degC"),
         ("SPEED [MM/S]", "SPEED", "mm/s"),
         ("压力\uff08MPa\uff09", "压力", "MPa"),
         ("a (m/s²)", "a", "m/s**2"),
         ("acc_g", "acc", "g"),
-        ("t (us)", "t", "us"),
         ("M [KN.m]", "M", "kN.m"),
     ],
 )
@@ -123,22 +98,12 @@ def test_titles_have_a_name_and_a_unit(title: str, name: str, unit: str | None) 
     [
         ("inch/sec**2", "inch/sec**2"),
         ("newton-meter", "newton*meter"),
-        ("Newton", "Newton"),
-        ("", None),
         ("pound_mass", "pound"),
         ("knewton", "kilonewton"),
-        ("deg", "deg"),
+        ("no_units", ""),
         ("furlongish", None),
+        ("9**9**9", None),
     ],
 )
-def test_units_of_adams_are_read(written: str, unit: str | None) -> None:
-    found = adams_unit(written)
-    assert found is unit or (found is not None and unit is not None and found.lower() == unit.lower())
-
-
-@given(st.text(max_size=12) | st.text("mNs*/^()-1239 ", max_size=14))
-def test_any_text_is_a_unit_or_none(text: str) -> None:
-    assert is_unit(text) in (True, False)
-    name, unit, _ = split_title(text)
-    assert isinstance(name, str)
-    assert unit is None or is_unit(unit)
+def test_units_of_programs_are_read(written: str, unit: str | None) -> None:
+    assert read_unit(written)[0] == unit
