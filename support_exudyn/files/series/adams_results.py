@@ -141,10 +141,10 @@ class _Analysis:
                     )
                 found[int(number)] = name, _component_unit(item)
         titles, known = list[tuple[str, str | None]](), set[str]()
-        for number, (name, unit) in sorted(found.items()):
+        for place, (name, unit) in sorted(found.items()):
             if name in known:
-                self.notes.append(f"{name} stands twice; that of id {number} is called by it.")
-                name = f"{name}#{number}"
+                self.notes.append(f"{name} stands twice; that of id {place} is called by it.")
+                name = f"{name}#{place}"
             known.add(name)
             titles.append((name, unit))
         times = [n for n, (name, _) in enumerate(titles) if name.casefold() == "time.time"]

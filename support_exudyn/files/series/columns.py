@@ -68,6 +68,7 @@ def named_times(names: Sequence[tuple[str, str | None]]) -> list[int]:
     """
     small = [name.casefold() for name, _ in names]
     named = [n for n, name in enumerate(small) if name == "time"]
+    named = named or [n for n, name in enumerate(small[:1]) if name.endswith(".time")]
     brief = [n for n, (_, unit) in enumerate(names) if small[n] == "t" and (unit is None or is_time(unit))]
     return named or [n for n in brief if names[n][0] == "t"] or brief
 
@@ -84,32 +85,33 @@ def table_series(table: Table, asked: Asked) -> SeriesFile:
     numbers = [one for one in table.columns if one.stamps is None]
     units = [asked.unit(one.name, one.unit) for one in numbers]
     named = named_times([(one.name, unit) for one, unit in zip(numbers, units, strict=True)])
-    if not named and numbers and numbers[0].name.casefold().endswith(".time"):
-        named = [0]
     in_time = [n for n, unit in enumerate(units) if unit is not None and is_time(unit)]
     is_known = bool(named) and units[named[0]] is not None
     is_known = is_known or (len(in_time) == 1 and is_called_time(numbers[in_time[0]].name))
     rated = None if is_known else _of_rate(table, numbers, asked.rate)
     stamped = None if is_known else _of_stamps(table) or (None if in_time else _of_calendar(numbers, units))
-    if stamped is not None and (row := _repeated(stamped[0].values)) is not None:
+    repeats = np.diff(stamped[0].values) == 0.0 if stamped else np.zeros(0, dtype=bool)
+    if stamped and repeats.sum() * 2 > repeats.size:
         if rated is None:
             raise InputError(
-                f"{table.path}: {table.place(row)}, column {short(stamped[0].name)}: at least every other row "
-                "repeats the time before it; allowed: stamps with fractions of a second, or a rate, such as "
-                "--rate 10 [Hz]"
+                f"{table.path}: {table.place(int(np.argmax(repeats)) + 1)}, column {short(stamped[0].name)}: "
+                "at least every other row repeats the time before it; allowed: stamps with fractions of a "
+                "second, or a rate, such as --rate 10 [Hz]"
             )
         stamped = None
-    note = ""
-    if named and (is_known or stamped is None is rated):
-        groups, note = _groups(table.path, numbers, named)
+    note, made = "", stamped or rated
+    if named and (is_known or made is None):
+        groups = _groups(numbers, named)
+        note = f"{len(named)} columns of times; each is of the columns to its right, up to the next."
+        note = note if len(named) > 1 else ""
     elif len(in_time) == 1 and stamped is None:
-        groups, _ = _groups(table.path, numbers, in_time)
+        groups = _groups(numbers, in_time)
         note = f"Column {numbers[in_time[0]].name!r} is taken for the times: it alone is in a unit of time."
-    elif made := stamped or rated:
+    elif made:
         times, note = made
         groups = [(times, [one for one in numbers if one.name != times.name])]
     elif len(numbers) > 1 and numbers[0].name == "column_1":
-        groups, note = _groups(table.path, numbers, [0])
+        groups = _groups(numbers, [0])
     else:
         others = f", its words {first_names(table.others)}" if table.others else ""
         raise InputError(
@@ -128,18 +130,13 @@ def table_series(table: Table, asked: Asked) -> SeriesFile:
     return series_file(table.path, table.kind, groups, asked, notes, table.place)
 
 
-def _groups(path: Path, columns: Sequence[Column], times: Sequence[int]) -> tuple[list[Group], str]:
-    """Columns of times, each with the columns that are over it, and a note if there are several."""
-    if len(times) == 1:
-        return [(columns[times[0]], [one for n, one in enumerate(columns) if n != times[0]])], ""
-    if times[0] != 0:
-        raise InputError(
-            f"{path}: column {short(columns[0].name)}: stands before the first of {len(times)} columns of "
-            "times; allowed: after that of its own"
-        )
-    ends = [*times[1:], len(columns)]
-    groups = [(columns[start], columns[start + 1 : end]) for start, end in zip(times, ends, strict=True)]
-    return groups, f"{len(times)} columns of times; each is of the columns to its right, up to the next."
+def _groups(columns: Sequence[Column], times: Sequence[int]) -> list[Group]:
+    """Columns of times, each with those to its right up to the next; the first also with those before it."""
+    starts, ends = [0, *times[1:]], [*times[1:], len(columns)]
+    return [
+        (columns[time], [columns[n] for n in range(start, end) if n != time])
+        for time, start, end in zip(times, starts, ends, strict=True)
+    ]
 
 
 def _of_stamps(table: Table) -> tuple[Column, str] | None:
@@ -218,12 +215,6 @@ def _of_rate(table: Table, columns: Sequence[Column], rate: float | None) -> tup
     interval = table.intervals[given[0]]
     note = f"Times are of the header's rate, {1.0 / interval:.9g} Hz ({given[0]:.60}), from 0 s."
     return Column("time at the rate", "s", rows * interval), note
-
-
-def _repeated(times: Numbers) -> int | None:
-    """The first row that repeats the time before it, if at least every other one does."""
-    repeats = np.diff(times) == 0.0
-    return int(np.argmax(repeats)) + 1 if repeats.sum() * 2 >= max(times.size, 2) else None
 
 
 # --- series of columns over times ---

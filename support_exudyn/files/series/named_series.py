@@ -59,10 +59,9 @@ def silent(share: float) -> None:
 class Asked:
     """What is wanted of a file.
 
-    units: what unit a column without one has, by patterns of names as in a shell; the first that
-        matches counts.
-    analysis: the name of one, of several in a file; None: the first.
-    sheet: likewise, of a workbook; None: the first with a table.
+    units: what unit a column without one has, by patterns of names as in a shell; the first that fits counts.
+    analysis: the name of one of several in an ADAMS result file; None: the first.
+    sheet: the name of one of several in a workbook; None: the first with a table.
     rate: samples per second [Hz] of a file without times; None: it is not known.
     names: patterns of the series that are wanted; all if there are none.
     progress: receives the share that is read.
@@ -77,13 +76,13 @@ class Asked:
 
     def unit(self, name: str, given: str | None) -> str | None:
         """The unit of a series: that of the file if it gives one."""
-        if given is not None:
-            return given
-        return next(
-            (unit for pattern, unit in self.units.items() if name == pattern or fnmatchcase(name, pattern)),
-            None,
-        )
+        fitting = (unit for pattern, unit in self.units.items() if _fits(name, pattern))
+        return next(fitting, None) if given is None else given
 
     def wants(self, name: str) -> bool:
         """Whether a series is wanted."""
-        return not self.names or any(name == pattern or fnmatchcase(name, pattern) for pattern in self.names)
+        return not self.names or any(_fits(name, pattern) for pattern in self.names)
+
+
+def _fits(name: str, pattern: str) -> bool:
+    return name == pattern or fnmatchcase(name, pattern)  # names have brackets

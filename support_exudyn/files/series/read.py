@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 from support_exudyn.files.series.adams_requests import is_request_file, read_adams_requests
 from support_exudyn.files.series.adams_results import read_adams_results
@@ -36,15 +36,6 @@ PLAIN = (read_text_table, read_adams_results)  # which many files seem to be
 NO_UNITS: Mapping[str, str] = {}
 
 
-@dataclass(frozen=True)
-class SeriesFormat:
-    """A kind of files. name: in words. fits: whether the first bytes of a file are of it. read: its reader."""
-
-    name: str
-    fits: Callable[[bytes], bool]
-    read: Callable[[Path, Asked], SeriesFile]
-
-
 def _is_xml(head: bytes) -> bool:
     return head.replace(b"\0", b"").lstrip(b"\xef\xbb\xbf\xff\xfe \t\r\n").startswith(b"<")
 
@@ -64,21 +55,31 @@ REFUSED = (  # how files begin that are no tables, what they are, and what to do
     (rb"(?s)[^<]{0,9}<.{0,900}schemas-microsoft-com:office:spreadsheet", "a workbook as XML", WORKBOOK),
 )  # fmt: skip
 
+
+class _Format(NamedTuple):
+    """A kind of files in words, whether the first bytes of a file are of it, and its reader."""
+
+    name: str
+    fits: Callable[[bytes], bool]
+    read: Callable[[Path, Asked], SeriesFile]
+
+
 FORMATS = (  # the first that fits is taken
-    SeriesFormat("run of this program", is_run, read_own_file),
-    SeriesFormat("channels that `export --to hdf5` has written", is_exported, read_own_file),
-    SeriesFormat("MATLAB file (.mat)", is_matlab, read_matlab),
-    SeriesFormat("Parquet file", is_parquet, read_typed_table),
-    SeriesFormat("Feather file", is_feather, read_typed_table),
-    SeriesFormat("workbook of Excel (.xlsx)", is_workbook, read_workbook),
-    SeriesFormat("binary solution of Exudyn", is_exudyn_binary, read_exudyn_binary),
-    SeriesFormat("ADAMS result file (.res)", _is_xml, read_adams_results),
-    SeriesFormat("LabVIEW measurement file (.lvm)", is_labview, read_labview),
-    SeriesFormat("JSON file", is_json, read_typed_table),
-    SeriesFormat("ADAMS request file (.req)", is_request_file, read_adams_requests),
-    SeriesFormat("sensor or solution of Exudyn as text", is_exudyn_text, read_exudyn_text),
-    SeriesFormat("table of text (CSV)", is_text, read_text_table),
+    _Format("run of this program", is_run, read_own_file),
+    _Format("channels that `export --to hdf5` has written", is_exported, read_own_file),
+    _Format("MATLAB file (.mat)", is_matlab, read_matlab),
+    _Format("Parquet file", is_parquet, read_typed_table),
+    _Format("Feather file", is_feather, read_typed_table),
+    _Format("workbook of Excel (.xlsx)", is_workbook, read_workbook),
+    _Format("binary solution of Exudyn", is_exudyn_binary, read_exudyn_binary),
+    _Format("ADAMS result file (.res)", _is_xml, read_adams_results),
+    _Format("LabVIEW measurement file (.lvm)", is_labview, read_labview),
+    _Format("JSON file", is_json, read_typed_table),
+    _Format("ADAMS request file (.req)", is_request_file, read_adams_requests),
+    _Format("sensor or solution of Exudyn as text", is_exudyn_text, read_exudyn_text),
+    _Format("table of text (CSV)", is_text, read_text_table),
 )
+KNOWN = ", ".join(one.name for one in FORMATS)
 
 
 def read_series(
@@ -95,40 +96,29 @@ def read_series(
 
     Arguments:
         path: of the file.
-        units: what unit a column without one has, by patterns of names as in a shell.
-        analysis: of an ADAMS result file, its name; None: the first.
-        sheet: of a workbook, its name; None: the first with a table.
-        rate: samples per second [Hz] of a file without times.
-        names: patterns of the series that are wanted, all if there are none. Of large result files only those
-            take memory.
-        progress: receives the share that is read.
+        units, analysis, sheet, rate, names, progress: see `Asked`. Of large result files only the series that
+            are wanted take memory.
 
     Raises InputError for a file of no known kind, damaged or ambiguous, with what is wrong and where; OSError
     if it cannot be read.
     """
     path = Path(path)
     if not path.exists():
-        raise missing_file(path, f"files of series: {known_formats()}")
+        raise missing_file(path, f"files of series: {KNOWN}")
     check_is_file(path, 2**63)
     with path.open("rb") as file:
         head = file.read(HEAD)
     if not head:
-        raise InputError(f"{path}: is empty; allowed: {known_formats()}")
+        raise InputError(f"{path}: is empty; allowed: {KNOWN}")
     if rate is not None and not 0.0 < rate < float("inf"):
         raise InputError(f"{path}: rate = {rate}: allowed: > 0, samples per second [Hz]")
-    asked = Asked(units, analysis, sheet, rate, names, progress)
     kind = next((one for one in FORMATS if one.fits(head)), None)
     for begin, what, instead in REFUSED if kind is None or kind.read in PLAIN else ():
         if re.match(begin, head):
             raise InputError(f"{path}: is {what}, which is not read; allowed: {instead}")
     if kind is None:
-        raise InputError(f"{path}: is of no kind that can be read; allowed: {known_formats()}")
+        raise InputError(f"{path}: is of no kind that can be read; allowed: {KNOWN}")
     for name, value, reader in (("analysis", analysis, read_adams_results), ("sheet", sheet, read_workbook)):
         if value is not None and kind.read is not reader:
             raise InputError(f"{path}: {name} {short(value)}: a {kind.name} has none; allowed: none")
-    return kind.read(path, asked)
-
-
-def known_formats() -> str:
-    """The kinds of files in words."""
-    return ", ".join(one.name for one in FORMATS)
+    return kind.read(path, Asked(units, analysis, sheet, rate, names, progress))

@@ -165,7 +165,7 @@ def _tried(lines: Sequence[str], separator: str, decimal: str) -> tuple[int, tup
         rows = [found for found, count in zip(split, numbers, strict=True) if len(found) == width and count]
         kinds = tuple(_kind([row[n] for row in rows], decimal) for n in range(width))
         fitting = [one for one in rows if _is_row(one, kinds, decimal)]
-        if width > 1 and fitting and not any(_is_split(item, decimal) for one in fitting for item in one):
+        if width > 1 and fitting:
             return len(fitting), kinds
     return 0, ()
 
@@ -183,13 +183,6 @@ def _is_row(found: Sequence[str], kinds: Sequence[str], decimal: str) -> bool:
     pairs = list(zip(own, kinds, strict=False))
     fits = len(own) == len(kinds) and all(kind in ("word", one) or one == "missing" for one, kind in pairs)
     return fits and any(one == kind != "word" for one, kind in pairs)
-
-
-def _is_split(item: str, decimal: str) -> bool:
-    """Whether an item is several numbers, so that something else separates items."""
-    parts = re.split(r"[\t;| ]+", item)
-    several = len(parts) > 1 and kind_of(item, decimal) == "word"
-    return several and all(NUMBERS[","].fullmatch(one) for one in parts if one)
 
 
 def _first_row(text: Lines, kinds: Sequence[str], decimal: str) -> int:

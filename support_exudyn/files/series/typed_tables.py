@@ -95,11 +95,11 @@ def _of_arrow(path: Path, kind: str, data: bytes, asked: Asked) -> Table:
             or not (types.is_floating(one.type) or types.is_integer(one.type))
         ]
         table = file.read(wanted, use_threads=False)
-    kept = {one.name: one.metadata or {} for one in table.schema}
     units = {
-        name: text.decode("utf-8", "replace")
-        for name, found in kept.items()
-        if (text := next((found[key] for key in UNIT if key in found), b""))
+        one.name: text.decode("utf-8", "replace")
+        for one in table.schema
+        for key, text in (one.metadata or {}).items()
+        if key in UNIT
     }
     return _of_frame(path, kind, table.to_pandas(ignore_metadata=True), units)
 
@@ -110,11 +110,10 @@ def _json_frame(data: bytes) -> pd.DataFrame:
 
     found = json.loads(data.decode("utf-8-sig"))
     if isinstance(found, dict) and len(found) == 1:
-        inside = next(iter(found.values()))
+        (inside,) = found.values()
         found = inside if isinstance(inside, list) and isinstance(inside[0], dict) else found
     if isinstance(found, dict):
-        columns = {key: [*one.values()] if isinstance(one, dict) else one for key, one in found.items()}
-        found = {key: one for key, one in columns.items() if isinstance(one, list)}
+        found = {key: one for key, one in found.items() if isinstance(one, (list, dict))}
     return pd.DataFrame(found)
 
 
@@ -141,13 +140,11 @@ def _column(name: str, unit: str | None, values: pd.Series) -> Column | None:
     kind = pd.api.types.infer_dtype(values, skipna=True)
     if kind in NUMBERS:
         return Column(name, unit, values.astype("float64").to_numpy(dtype=np.float64))
-    if kind in CLOCKS:
-        since = pd.to_timedelta(values) / pd.Timedelta("1s")
-        stamps = Stamps(since.to_numpy(dtype=np.float64), False, 0.0)
-    elif kind in DATES:
-        moments = pd.to_datetime(values, utc=True)
-        since = (moments - moments.dropna().min()) / pd.Timedelta("1s")
-        stamps = Stamps(since.to_numpy(dtype=np.float64), True, 0.0 if kind == "date" else DAY)
+    if kind in (*CLOCKS, *DATES):
+        moments = pd.to_timedelta(values) if kind in CLOCKS else pd.to_datetime(values, utc=True)
+        since = (moments - (pd.Timedelta(0) if kind in CLOCKS else moments.min())) / pd.Timedelta("1s")
+        has_clock = kind not in (*CLOCKS, "date")
+        stamps = Stamps(since.to_numpy(dtype=np.float64), kind in DATES, DAY if has_clock else 0.0)
     elif kind in ("string", "time"):
         texts = values.astype("str").mask(values.isna())
         if not all(map(is_stamp, texts[:CHECKED].dropna())):
@@ -219,7 +216,7 @@ def _cell(value: Any) -> str:
     """A cell as text, with one meaning."""
     if isinstance(value, timedelta):
         minutes, seconds = divmod(value.total_seconds(), 60.0)
-        return f"{int(minutes // 60)}:{int(minutes % 60):02d}:{seconds:09.6f}"
+        return f"{minutes // 60:.0f}:{minutes % 60:02.0f}:{seconds:09.6f}"
     if isinstance(value, (datetime, time)):
         return value.isoformat()
     if value is None or value != value:  # missing

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
+from collections.abc import Mapping
 from functools import lru_cache
 from typing import Any
 
@@ -35,7 +36,7 @@ SMALL = {
     *("deg", "rad", "mrad", "rpm", "N", "kN", "MN", "mN", "Pa", "kPa", "MPa", "GPa", "bar", "mbar"),
     *("kg", "J", "kJ", "W", "kW", "Hz", "kHz", "degC", "percent", "inch", "ft", "lbf", "sec"),
 }
-USUAL = {*SMALL, "h", "l", "g", "t", "°", "°C", "psi", "kgf", "tf", "lb", "µm", "µs", "K", "V", "mV", "A", "mA"}
+USUAL = {*SMALL, "h", "l", "g", "t", "°", "°C", "psi", "kgf", "tf", "lb", "μm", "μs", "K", "V", "mV", "A", "mA"}
 # units in any case of letters that can be read in no other way; mPa and MPa, mN and MN can
 CASED = {
     one.casefold(): one
@@ -57,7 +58,6 @@ NAMES = {  # words that pint does not know, or reads otherwise
     "angular_seconds": "arcsecond", "kwh": "kilowatt_hour", "rev": "turn", "msec": "ms", "usec": "us",
     "secs": "s", "hrs": "h", "mins": "min",
 }  # fmt: skip
-OF_LENGTH = ("s", "m", "mm", "ms", "min")  # in units all in capital letters, MM/S
 OF_TIME = {"s": "s", "ms": "ms", "us": "us", "min": "min", "h": "h", "d": "day"}  # in any case, of times
 
 
@@ -74,14 +74,14 @@ def _as_pint_writes(text: str) -> str:
 
 @lru_cache(maxsize=1000)
 def _unit(text: str) -> Any:
-    """The unit of a text. Raises ValueError if pint reads none."""
+    """The unit of a text; None if pint reads none."""
     text = text.strip()
     if len(text) > LONGEST or (text and not WORDS.fullmatch(text)) or COSTLY.search(text):
-        raise ValueError("no unit")
+        return None
     try:
         return _registry().Unit("" if text in NO_UNIT else _as_pint_writes(text))
     except Exception:  # of pint's many kinds, and of the grammar below it
-        raise ValueError("no unit") from None
+        return None
 
 
 def _base(text: str) -> Any:
@@ -91,11 +91,7 @@ def _base(text: str) -> Any:
 
 def is_unit(text: str) -> bool:
     """Whether pint reads a text as a unit."""
-    try:
-        _unit(text)
-    except ValueError:
-        return False
-    return True
+    return _unit(text) is not None
 
 
 @lru_cache(maxsize=1000)
@@ -175,30 +171,19 @@ def read_unit(text: str, of_time: bool = False) -> tuple[str | None, str]:
         return "g", "unit 'G' is read as g"
     if text in ("mPa", "mN"):
         return text, f"unit {text!r} is a thousandth of {text[1:]}; {text.replace('m', 'M')} has a capital M"
-    whole = text.upper() == text and "/" in text
-    found = LETTERS.sub(lambda word: _word(word.group(), whole), text)
+    cased = CASED | {"s": "s", "m": "m"} if text.isupper() and "/" in text else CASED  # MM/S
+    found = LETTERS.sub(lambda word: _word(word[0], cased), text)
     if not is_unit(found):
         return None, ""
-    assumed = any(_word(word, whole) != word and _is_cased(word, whole) for word in LETTERS.findall(text))
+    assumed = any(cased.get(word.casefold(), word) != word for word in LETTERS.findall(text))
     return _as_pint_writes(found), f"unit {text!r} is read as {found}" if assumed else ""
 
 
-def _word(word: str, upper: bool) -> str:
-    """A word of a unit as pint knows it. upper: whether the whole unit is in capital letters, as MM/S."""
+def _word(word: str, cased: Mapping[str, str]) -> str:
+    """A word of a unit as pint knows it. cased: units by their small letters."""
     small = word.casefold()
-    if small in NAMES:
-        return NAMES[small]
-    if _is_cased(word, upper):
-        return small if upper and small in OF_LENGTH else CASED[small]
-    return small if len(word) > 2 and not is_unit(word) else word
-
-
-def _is_cased(word: str, upper: bool) -> bool:
-    """Whether a word is a unit in other letters, capital or small, as Mpa and kn are."""
-    small = word.casefold()
-    if word in USUAL or small in NAMES:
-        return False
-    return (upper and small in OF_LENGTH) or (small in CASED and (word != small or small == "kn"))
+    known = NAMES.get(small) or cased.get(small)
+    return known or (small if len(word) > 2 and not is_unit(word) else word)
 
 
 # --- titles of columns: a name and a unit ---
@@ -256,8 +241,8 @@ def _usual(name: str, text: str, sign: str) -> tuple[str | None, str]:
     """The unit, with a note, that stands in a title behind a sign or a blank; None if it is no usual one."""
     of_time = is_called_time(name)
     unit, note = read_unit(text, of_time)
-    words = [_word(word, False).rstrip("2345") for word in LETTERS.findall(text)]
-    usual = text.casefold() in WHOLE or all(word in USUAL for word in words)
+    words = LETTERS.findall(text)
+    usual = text.casefold() in WHOLE or all(_word(word, CASED).rstrip("2345") in USUAL for word in words)
     if unit is None or not words or not (usual or (of_time and is_time(unit))):
         return None, ""
     of_rate = sign == "/" and name in USUAL - {"t", "h", "l", "g"}  # "mm/s" is a unit and no name
@@ -278,6 +263,6 @@ def _ending(name: str, text: str) -> tuple[str | None, str]:
     small = text.casefold()
     if is_called_time(name) and small in OF_TIME:
         return OF_TIME[small], ""
-    if small in ("ton", "tonf") or (small in CASED and small not in ("min", "lb", "µs", "ms")):
+    if small in ("ton", "tonf") or (small in CASED and small not in ("min", "lb", "μs", "ms")):
         return read_unit(text)
     return ("g", "") if small == "g" and name.casefold().startswith("acc") else (None, "")
