@@ -30,7 +30,6 @@ from support_exudyn.files.series.named_series import Asked, SeriesFile
 from support_exudyn.files.series.text_tables import lines_of
 from user_forces.values.value import InputError, short
 
-FIRST = re.compile(rb"\s*A\.R\d\b|MotionSolve\b[^\n]*Plot File|[^\n]{0,200}RecurDyn", re.IGNORECASE)
 COUNT = re.compile(r"\s*(\d{1,7})\s+(?:([A-Z_]{12})\s+)?(\d[\d.]*(?:[eEdD][+-]?\d+)?)\s*")
 ENTRY = re.compile(r"\s*(\d{1,9})\s+(\d{1,3})\s+-?\d{1,9}\s+-?\d{1,9}\s+(\d{1,4})\s*")
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eED][+-]?\d+)?", re.ASCII)
@@ -48,11 +47,6 @@ KINDS = {  # of requests: units of X Y Z, and of R1 R2 R3
     3: ("{length}/{time}**2", "{angle}/{time}**2"),
     4: ("{force}", "{force}*{length}"),
 }
-
-
-def is_request_file(head: bytes) -> bool:
-    """Whether a file begins as request files do."""
-    return FIRST.match(head) is not None
 
 
 def read_adams_requests(path: Path, asked: Asked) -> SeriesFile:

@@ -150,8 +150,6 @@ def _of_stamps(table: Table) -> tuple[Column, str] | None:
     dates = [one for one in found if one[1].has_date and not one[1].period]
     clocks = [one for one in found if not one[1].has_date]
     used = whole[:1] or [*dates[:1], *clocks[:1]]
-    if not used:
-        return None
     for name, stamps in used:
         if stamps.wrong is not None:
             row, item, allowed = stamps.wrong
@@ -159,15 +157,15 @@ def _of_stamps(table: Table) -> tuple[Column, str] | None:
                 f"{table.path}: {table.place(row)}, column {short(name)}: {short(item)}; allowed: {allowed}"
             )
     name, note = " ".join(one for one, _ in used), ""
-    seconds = np.sum([stamps.seconds for _, stamps in used], axis=0)
-    there = np.flatnonzero(np.isfinite(seconds))
-    if clocks and not dates and not whole:
+    seconds: Numbers = np.sum([stamps.seconds for _, stamps in used], axis=0)
+    there = np.flatnonzero(np.isfinite(seconds)) if used else []
+    if not used or (used == dates[:1] and np.ptp(seconds[there]) == 0.0):
+        return None
+    if used == clocks[:1]:
         period = clocks[0][1].period
         turns = np.cumsum(np.diff(seconds[there], prepend=seconds[there[:1]]) < -0.5 * period)
         seconds[there] += period * turns
         note = f" Column {name!r} runs over midnight." if period == DAY and turns[-1:].any() else ""
-    if used == dates[:1] and np.ptp(seconds[there]) == 0.0:
-        return None
     return Column(name, "s", _from_first(seconds)), f"Times are counted from the first stamp of {name!r}.{note}"
 
 
@@ -201,20 +199,20 @@ def _of_rate(table: Table, columns: Sequence[Column], rate: float | None) -> tup
 
     Raises InputError if the header gives two.
     """
-    given = sorted(table.intervals, key=lambda line: table.intervals[line])
+    given = sorted(table.intervals.items(), key=lambda one: one[1])
     if not columns or not (rate or given):
         return None
-    if given and not rate and table.intervals[given[-1]] > 1.001 * table.intervals[given[0]]:
-        raise InputError(
-            f"{table.path}: has no times, and its header gives two rates, {short(given[0])} and "
-            f"{short(given[-1])}; allowed: one, or --rate [Hz]"
-        )
-    rows = np.arange(columns[0].values.size, dtype=np.float64)
+    name, rows = "time at the rate", np.arange(columns[0].values.size, dtype=np.float64)
     if rate:
-        return Column("time at the rate", "s", rows / rate), f"Times are of the rate {rate:.9g} Hz, from 0 s."
-    interval = table.intervals[given[0]]
-    note = f"Times are of the header's rate, {1.0 / interval:.9g} Hz ({given[0]:.60}), from 0 s."
-    return Column("time at the rate", "s", rows * interval), note
+        return Column(name, "s", rows / rate), f"Times are of the rate {rate:.9g} Hz, from 0 s."
+    (line, interval), (other, longest) = given[0], given[-1]
+    if longest > 1.001 * interval:
+        raise InputError(
+            f"{table.path}: has no times, and its header gives two rates, {short(line)} and {short(other)}; "
+            "allowed: one, or --rate [Hz]"
+        )
+    note = f"Times are of the header's rate, {1.0 / interval:.9g} Hz ({line:.60}), from 0 s."
+    return Column(name, "s", rows * interval), note
 
 
 # --- series of columns over times ---

@@ -39,12 +39,6 @@ MEASURED = re.compile(r"#OutputVariableType *= *(\w*)")
 LONGEST = 10_000  # letters or numbers in an item of a binary header
 
 
-def is_exudyn_text(head: bytes) -> bool:
-    """Whether a file begins as Exudyn's sensors and solutions do."""
-    first = head.partition(b"\n")[0].lower()
-    return first.startswith(b"#exudyn") and (b"sensor output file" in first or b"solution file" in first)
-
-
 def read_exudyn_text(path: Path, asked: Asked) -> SeriesFile:
     """The series of a sensor's file, or of a solution as text.
 
@@ -92,11 +86,6 @@ def _coordinates(path: Path, counts: Sequence[int]) -> list[str]:
 
 
 # --- binary ---
-
-
-def is_exudyn_binary(head: bytes) -> bool:
-    """Whether a file begins as Exudyn's binary solutions do."""
-    return head.startswith(BINARY)
 
 
 class _Binary:

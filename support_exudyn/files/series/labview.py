@@ -24,14 +24,8 @@ from support_exudyn.files.series.text_tables import columns_of, lines_of
 from support_exudyn.files.series.units import is_called_time, read_unit, split_title
 from user_forces.values.value import InputError, short
 
-FIRST = re.compile(rb"(\xef\xbb\xbf)?\s*LabVIEW Measurement\b", re.IGNORECASE)
 END = "***End_of_Header***"
 SPECIAL = re.compile(r"(?ms)^\*\*\*Start_Special\*\*\*.*?^\*\*\*End_Special\*\*\*[^\n]*")
-
-
-def is_labview(head: bytes) -> bool:
-    """Whether a file begins as LabVIEW's measurement files do."""
-    return FIRST.match(head) is not None
 
 
 class _Tags:

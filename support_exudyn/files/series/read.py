@@ -7,27 +7,15 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from support_exudyn.files.series.adams_requests import is_request_file, read_adams_requests
+from support_exudyn.files.series.adams_requests import read_adams_requests
 from support_exudyn.files.series.adams_results import read_adams_results
-from support_exudyn.files.series.exudyn_files import (
-    is_exudyn_binary,
-    is_exudyn_text,
-    read_exudyn_binary,
-    read_exudyn_text,
-)
-from support_exudyn.files.series.labview import is_labview, read_labview
+from support_exudyn.files.series.exudyn_files import read_exudyn_binary, read_exudyn_text
+from support_exudyn.files.series.labview import read_labview
 from support_exudyn.files.series.matlab import is_matlab, read_matlab
 from support_exudyn.files.series.named_series import Asked, Progress, SeriesFile, silent
 from support_exudyn.files.series.own_runs import is_exported, is_run, read_own_file
-from support_exudyn.files.series.text_tables import is_text, read_text_table
-from support_exudyn.files.series.typed_tables import (
-    is_feather,
-    is_json,
-    is_parquet,
-    is_workbook,
-    read_typed_table,
-    read_workbook,
-)
+from support_exudyn.files.series.text_tables import UTF_16, read_text_table
+from support_exudyn.files.series.typed_tables import read_typed_table, read_workbook
 from support_exudyn.files.whole_file import check_is_file, missing_file
 from user_forces.values.value import InputError, short
 
@@ -36,8 +24,8 @@ PLAIN = (read_text_table, read_adams_results)  # which many files seem to be
 NO_UNITS: Mapping[str, str] = {}
 
 
-def _is_xml(head: bytes) -> bool:
-    return head.replace(b"\0", b"").lstrip(b"\xef\xbb\xbf\xff\xfe \t\r\n").startswith(b"<")
+def _is_text(head: bytes) -> bool:
+    return bool(head.strip()) and (b"\0" not in head or head.startswith(UTF_16))
 
 
 UNPACKED, WORKBOOK = "the file that it holds, unpacked", "the table saved as .xlsx or CSV"
@@ -57,27 +45,33 @@ REFUSED = (  # how files begin that are no tables, what they are, and what to do
 
 
 class _Format(NamedTuple):
-    """A kind of files in words, whether the first bytes of a file are of it, and its reader."""
+    """A kind of files in words, how they begin (a pattern or a function of the first bytes), and its reader."""
 
     name: str
-    fits: Callable[[bytes], bool]
+    begins: bytes | Callable[[bytes], bool]
     read: Callable[[Path, Asked], SeriesFile]
 
+    def fits(self, head: bytes) -> bool:
+        begins = self.begins
+        return re.match(begins, head) is not None if isinstance(begins, bytes) else begins(head)
 
+
+REQUESTS = rb"(?i)\s*A\.R\d\b|MotionSolve\b[^\n]*Plot File|[^\n]{0,200}RecurDyn"
+EXUDYN = rb"(?i)#exudyn[^\n]*(sensor output|solution) file"
 FORMATS = (  # the first that fits is taken
     _Format("run of this program", is_run, read_own_file),
     _Format("channels that `export --to hdf5` has written", is_exported, read_own_file),
     _Format("MATLAB file (.mat)", is_matlab, read_matlab),
-    _Format("Parquet file", is_parquet, read_typed_table),
-    _Format("Feather file", is_feather, read_typed_table),
-    _Format("workbook of Excel (.xlsx)", is_workbook, read_workbook),
-    _Format("binary solution of Exudyn", is_exudyn_binary, read_exudyn_binary),
-    _Format("ADAMS result file (.res)", _is_xml, read_adams_results),
-    _Format("LabVIEW measurement file (.lvm)", is_labview, read_labview),
-    _Format("JSON file", is_json, read_typed_table),
-    _Format("ADAMS request file (.req)", is_request_file, read_adams_requests),
-    _Format("sensor or solution of Exudyn as text", is_exudyn_text, read_exudyn_text),
-    _Format("table of text (CSV)", is_text, read_text_table),
+    _Format("Parquet file", rb"PAR1", read_typed_table),
+    _Format("Feather file", rb"ARROW1|FEA1", read_typed_table),
+    _Format("workbook of Excel (.xlsx)", rb"(?s)PK\x03\x04.*(\[Content_Types\]|xl/|docProps/)", read_workbook),
+    _Format("binary solution of Exudyn", rb"EXUBIN", read_exudyn_binary),
+    _Format("ADAMS result file (.res)", rb"[\xef\xbb\xbf\xff\xfe\0\s]*<", read_adams_results),
+    _Format("LabVIEW measurement file (.lvm)", rb"(?i)(\xef\xbb\xbf)?\s*LabVIEW Measurement\b", read_labview),
+    _Format("JSON file", rb"(\xef\xbb\xbf)?\s*(\{|\[\s*[{\[])", read_typed_table),
+    _Format("ADAMS request file (.req)", REQUESTS, read_adams_requests),
+    _Format("sensor or solution of Exudyn as text", EXUDYN, read_exudyn_text),
+    _Format("table of text (CSV)", _is_text, read_text_table),
 )
 KNOWN = ", ".join(one.name for one in FORMATS)
 

@@ -19,6 +19,7 @@ from user_forces.values.value import InputError
 
 BLANKS = " "  # any number of blanks and tabs
 SEPARATORS = ("\t", ";", ",", "|", BLANKS)
+COMMENTS = {one: re.compile(r"\s*(#|%|!|//)" if one == ";" else r"\s*(#|%|!|//|;)") for one in SEPARATORS}
 MISSING = {  # items that are no numbers, in small letters
     *("", "nan", "-nan", "na", "n/a", "#n/a", "#nv", "nv", "null", "none", "nil", "nat", "-", "--", "---", "?"),
     *("*", "#value!", "#div/0!", "#ref!", "#num!", "#name?", "missing", "no data", "n.a.", "k.a.", "---.-"),
@@ -64,11 +65,7 @@ class TableLayout:
     @property
     def comment(self) -> re.Pattern[str]:
         """The pattern by which lines of comments begin."""
-        return _comment(self.separator)
-
-
-def _comment(separator: str) -> re.Pattern[str]:
-    return re.compile(r"\s*(#|%|!|//)" if separator == ";" else r"\s*(#|%|!|//|;)")
+        return COMMENTS[self.separator]
 
 
 def items(line: str, separator: str) -> list[str]:
@@ -104,7 +101,7 @@ def layout(path: Path, lines: Sequence[str], separators: Sequence[str] = SEPARAT
     if (written := _written(lines, separators)) is None:
         raise InputError(f"{path}: is no table of numbers; allowed: {ALLOWED}")
     separator, decimal, kinds = written
-    comment = _comment(separator)
+    comment = COMMENTS[separator]
     text = [
         (n, items(line, separator)) for n, line in enumerate(lines) if line.strip() and not comment.match(line)
     ]
@@ -118,11 +115,11 @@ def layout(path: Path, lines: Sequence[str], separators: Sequence[str] = SEPARAT
     _check_groups(path, [row for row in rows if len(row) == len(kinds)], kinds, decimal)
     whole = any(len(found) == len(kinds) and found[-1] for _, found in text[:start])
     ended = len(kinds) > 1 and not whole and all(len(one) == len(kinds) and not one[-1] for one in rows)
-    reading = _Titles(path, separator, decimal, len(kinds) - ended, notes)
-    titles = [*reading.read(text[:start], lines[:first]), *[("", None)] * ended]
-    lacking = [f"column_{n}" for n, (name, _) in enumerate(titles[: len(kinds) - ended], 1) if not name]
-    if 0 < len(lacking) < len(kinds) - ended:
+    titles = _titles(path, lines[:first], separator, decimal, len(kinds) - ended, notes)
+    lacking = [f"column_{n}" for n, (name, _) in enumerate(titles, 1) if not name]
+    if 0 < len(lacking) < len(titles):
         notes.append(f"Columns without a title are called {first_names(lacking)}.")
+    titles += [("", None)] * ended
     named = tuple((name or f"column_{n}", unit) for n, (name, unit) in enumerate(titles, 1))
     return TableLayout(separator, decimal, first, named, kinds, tuple(notes), intervals)
 
@@ -155,18 +152,18 @@ def _written(lines: Sequence[str], separators: Sequence[str]) -> tuple[str, str,
 
 def _tried(lines: Sequence[str], separator: str, decimal: str) -> tuple[int, tuple[str, ...]]:
     """How many rows there are if lines are separated so, and what their columns are."""
-    comment = _comment(separator)
-    split = [items(line, separator) for line in lines if line.strip() and not comment.match(line)]
+    text = [line for line in lines if line.strip() and not COMMENTS[separator].match(line)]
+    split = [items(line, separator) for line in text]
+    counts = [sum(kind_of(one, decimal) in ("number", "stamp") for one in found) for found in split]
     score: Counter[int] = Counter()  # of widths, by their numbers and by titles of times
-    numbers = [sum(kind_of(one, decimal) in ("number", "stamp") for one in found) for found in split]
-    for found, count in zip(split, numbers, strict=True):
+    for found, count in zip(split, counts, strict=True):
         score[len(found)] += count or (len(found) > 1 and 10**6 * any(map(is_time_title, found)))
     for width, _ in score.most_common(3):
-        rows = [found for found, count in zip(split, numbers, strict=True) if len(found) == width and count]
+        rows = [found for found, count in zip(split, counts, strict=True) if len(found) == width and count]
         kinds = tuple(_kind([row[n] for row in rows], decimal) for n in range(width))
-        fitting = [one for one in rows if _is_row(one, kinds, decimal)]
+        fitting = sum(_is_row(one, kinds, decimal) for one in rows)
         if width > 1 and fitting:
-            return len(fitting), kinds
+            return fitting, kinds
     return 0, ()
 
 
@@ -218,80 +215,64 @@ def _check_groups(path: Path, rows: Sequence[Sequence[str]], kinds: Sequence[str
 # --- titles ---
 
 
-@dataclass
-class _Titles:
-    """The titles of a table's columns, from the lines above its rows; notes receive what was assumed."""
+def _titles(
+    path: Path, lines: Sequence[str], separator: str, decimal: str, width: int, notes: list[str]
+) -> list[Title]:
+    """A name, empty if there is none, and a unit for each column, from the lines above the rows.
 
-    path: Path
-    separator: str
-    decimal: str
-    width: int
-    notes: list[str]
-
-    def read(self, text: Lines, lines: Sequence[str]) -> list[Title]:
-        """A name, empty if there is none, and a unit for each column.
-
-        text: lines above the rows, with their items. lines: all of them, also comments.
-        """
-        comment = _comment(self.separator)
-        plain = [(n, line) for n, line in enumerate(lines) if line.strip() and not comment.match(line)]
-        bare = [(n, comment.sub("", line, count=1)) for n, line in enumerate(lines) if comment.match(line)]
-        split = [[(n, found) for n, line in some if (found := self._fitted(line))] for some in (plain, bare)]
-        fitting = [one for one in split[0] or split[1] if self._may_be_titles(one[1])]
-        if not fitting:
-            self._check(text)
-            self.notes.append("There are no titles; columns are called by their numbers, column_1 and so on.")
-            return [("", None)] * self.width
-        units = next((n for n in range(1, len(fitting)) if _are_units(fitting[n][1])), len(fitting))
-        timed = [one for one in fitting[:units] if any(map(is_time_title, one[1]))]
-        place, titles = (timed or fitting[:units])[-1]
-        used, below = {place}, [""] * self.width
-        if units < len(fitting):
-            used, below = {place, fitting[units][0]}, fitting[units][1]
-        if passed := sum(n not in used for n, _ in plain):
-            self.notes.append(f"{passed} {'line' if passed == 1 else 'lines'} above the rows passed over.")
-        return [self._title(word, one.strip("[](){} ")) for word, one in zip(titles, below, strict=True)]
-
-    def _fitted(self, line: str) -> list[str] | None:
-        """The items of a line, None if they are not as many as those of a row."""
-        found = items(line, self.separator)
-        for gap in (r"\s+(?![\[(])", r"\s{2,}|\t"):  # a unit in brackets is no title
-            if self.separator == BLANKS and len(found) != self.width:
-                found = re.split(gap, line.strip())
-        if not any(found[self.width :]):
-            found = found[: self.width]
-        return found if len(found) == self.width and any(found) else None
-
-    def _may_be_titles(self, found: Sequence[str]) -> bool:
-        """Whether items are words rather than numbers, or stand behind a title of times."""
-        kinds = [kind_of(one, self.decimal) for one in found]
-        words = sum(one == "word" for one in kinds)
-        named = bool(words) and 2 * words >= sum(one != "missing" for one in kinds)
-        return "stamp" not in kinds and (named or is_time_title(found[0]))
-
-    def _check(self, text: Lines) -> None:
-        """Raise InputError if the line above the rows has titles, and not as many as the rows have items."""
-        number, found = text[-1] if text else (0, [])
-        if len(found) < 2 or not any(kind_of(one, self.decimal) == "word" for one in found):
-            return
-        phrase = {"\t": "tabs", BLANKS: "blanks", ",": "commas"}.get(self.separator, repr(self.separator))
-        raise InputError(
-            f"{self.path}: line {number + 1}: has {len(found)} titles, separated by {phrase}, above rows of "
-            f"{self.width} items; allowed: as many titles as items; where commas are decimal points items need "
-            "another separator, ';'"
-        )
-
-    def _title(self, word: str, below: str) -> Title:
-        """The name and the unit of a column, which may stand below its title."""
+    notes: receives what was assumed. Raises InputError if the last line has titles, but not one for each item.
+    """
+    comment = COMMENTS[separator]
+    plain = [(n, line) for n, line in enumerate(lines) if line.strip() and not comment.match(line)]
+    bare = [(n, comment.sub("", line, count=1)) for n, line in enumerate(lines) if comment.match(line)]
+    split = [
+        [(n, found) for n, line in some if (found := _fitted(line, separator, width))] for some in (plain, bare)
+    ]
+    fitting = [one for one in split[0] or split[1] if _may_be_titles(one[1], decimal)]
+    if not fitting:
+        number, found = (plain[-1][0], items(plain[-1][1], separator)) if plain else (0, [])
+        if len(found) > 1 and any(kind_of(one, decimal) == "word" for one in found):
+            phrase = {"\t": "tabs", BLANKS: "blanks", ",": "commas"}.get(separator, repr(separator))
+            raise InputError(
+                f"{path}: line {number + 1}: has {len(found)} titles, separated by {phrase}, above rows of "
+                f"{width} items; allowed: as many titles as items; where commas are decimal points items need "
+                "another separator, ';'"
+            )
+        notes.append("There are no titles; columns are called by their numbers, column_1 and so on.")
+        return [("", None)] * width
+    end = next((n for n in range(1, len(fitting)) if _are_units(fitting[n][1])), len(fitting))
+    timed = [one for one in fitting[:end] if any(map(is_time_title, one[1]))]
+    used = [(timed or fitting[:end])[-1], *fitting[end : end + 1]]  # titles, units
+    if passed := len({n for n, _ in plain} - {n for n, _ in used}):
+        notes.append(f"{passed} {'line' if passed == 1 else 'lines'} above the rows passed over.")
+    titles = []
+    for word, below in zip(used[0][1], used[1][1] if used[1:] else [""] * width, strict=True):
         name, unit, note = split_title(word)
-        if below:
+        if below := below.strip("[](){} "):
             unit, note = read_unit(below, is_called_time(word))
-            note = f"column {name!r}: {note}" if note else ""
             if unit is None and not note:
-                note = f"column {word!r}: {below!r} is no unit that pint reads; it counts as none"
-        if note:
-            self.notes.append(f"{note[0].upper()}{note[1:]}.")
-        return name, unit
+                note = f"{below!r} is no unit that pint reads; it counts as none"
+            note = note and f"column {name!r}: {note}"
+        notes += [f"{note[0].upper()}{note[1:]}."] if note else []
+        titles.append((name, unit))
+    return titles
+
+
+def _fitted(line: str, separator: str, width: int) -> list[str] | None:
+    """The items of a line, None if they are not as many as those of a row."""
+    found = items(line, separator)
+    for gap in (r"\s+(?![\[(])", r"\s{2,}|\t"):  # a unit in brackets is no title
+        if separator == BLANKS and len(found) != width:
+            found = re.split(gap, line.strip())
+    found = found if any(found[width:]) else found[:width]
+    return found if len(found) == width and any(found) else None
+
+
+def _may_be_titles(found: Sequence[str], decimal: str) -> bool:
+    """Whether items are words rather than numbers, or stand behind a title of times."""
+    count = Counter(kind_of(one, decimal) for one in found)
+    named = 0 < count["word"] >= count["number"]
+    return not count["stamp"] and (named or is_time_title(found[0]))
 
 
 def _are_units(words: Sequence[str]) -> bool:

@@ -190,19 +190,14 @@ def _numbers(column: pd.Series, decimal: str) -> tuple[Numbers, int | None]:
 # --- text of files that others have written ---
 
 
-def is_text(head: bytes) -> bool:
-    """Whether the first bytes of a file may be text."""
-    return bool(head.strip()) and (b"\0" not in head or bool(_utf_16(head)))
-
-
 def lines_of(path: Path) -> tuple[list[str], list[str]]:
     """The lines of a text, and notes on it.
 
     Raises InputError for what is no text, or more than fits into memory; OSError if it cannot be read.
     """
     data, notes = contents(path, available() // SHARE), []
-    encoding = _utf_16(data) or "utf-8-sig"
-    if encoding == "utf-8-sig" and b"\0" in data:
+    encoding = "utf-16" if data.startswith(UTF_16) else "utf-8-sig"
+    if encoding != "utf-16" and b"\0" in data:
         raise InputError(f"{path}: byte {data.index(0)} is 0, which no text has; allowed: {ALLOWED}")
     try:
         text = data.decode(encoding)
@@ -214,16 +209,6 @@ def lines_of(path: Path) -> tuple[list[str], list[str]]:
             raise InputError(f"{path}: byte {error.start} is no text; allowed: {ALLOWED}") from None
         notes.append(f"The text is not in UTF-8; it was read as {name}.")
     return re.split(r"\r\n|\r", text) if "\n" not in text else text.replace("\r\n", "\n").split("\n"), notes
-
-
-def _utf_16(data: bytes) -> str:
-    """The encoding of a text of two bytes a letter, by its first bytes; else nothing."""
-    if data.startswith(UTF_16):
-        return "utf-16"
-    zeros = data[:200][0::2].count(0), data[:200][1::2].count(0)
-    if max(zeros) * 4 < len(data[:200]) or min(zeros):
-        return ""
-    return "utf-16-be" if zeros[0] else "utf-16-le"
 
 
 def _is_chinese(data: bytes) -> bool:

@@ -29,28 +29,12 @@ from user_forces.values.value import InputError, cleaned, short
 if TYPE_CHECKING:
     import pandas as pd
 
-PARQUET, FEATHER = b"PAR1", (b"ARROW1", b"FEA1")
+KINDS = {b"PAR1": "Parquet file", b"ARRO": "Feather file", b"FEA1": "Feather file"}  # by the first bytes
 UNIT = (b"unit", b"units")  # keys of a field's metadata
 NUMBERS = ("floating", "integer", "mixed-integer-float", "decimal", "empty")  # kinds of columns by pandas
 CLOCKS = ("timedelta", "timedelta64")
 DATES = ("datetime", "datetime64", "date")
 CHECKED = 400  # items by which words are stamps
-
-
-def is_parquet(head: bytes) -> bool:
-    """Whether a file begins as Parquet does."""
-    return head.startswith(PARQUET)
-
-
-def is_feather(head: bytes) -> bool:
-    """Whether a file begins as Feather does, which is a file of Arrow."""
-    return head.startswith(FEATHER)
-
-
-def is_json(head: bytes) -> bool:
-    """Whether a file begins as a list of objects or an object of JSON does."""
-    text = head.removeprefix(b"\xef\xbb\xbf").lstrip()
-    return text[:1] == b"{" or (text[:1] == b"[" and text[1:].lstrip()[:1] in (b"{", b"["))
 
 
 def read_typed_table(path: Path, asked: Asked) -> SeriesFile:
@@ -60,7 +44,7 @@ def read_typed_table(path: Path, asked: Asked) -> SeriesFile:
     read.
     """
     data = contents(path, available() // 4)
-    kind = "Parquet file" if is_parquet(data) else "Feather file" if is_feather(data) else "JSON file"
+    kind = KINDS.get(data[:4], "JSON file")
     try:
         if kind == "JSON file":
             table = _of_frame(path, kind, _json_frame(data), {})
@@ -158,13 +142,6 @@ def _column(name: str, unit: str | None, values: pd.Series) -> Column | None:
 
 
 # --- workbooks ---
-
-
-def is_workbook(head: bytes) -> bool:
-    """Whether a file may be a workbook: an archive whose first files are of Office's."""
-    return head.startswith(b"PK\x03\x04") and any(
-        one in head for one in (b"[Content_Types]", b"xl/", b"docProps/")
-    )
 
 
 def read_workbook(path: Path, asked: Asked) -> SeriesFile:
