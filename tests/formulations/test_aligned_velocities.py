@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import numpy as np
 import pytest
 
 from support_exudyn import Reciprocating, Scenario, SolverSettings, simulate
 from support_exudyn.simulation.result_checks import turned_over
-from tests.cases.run_cases import FORCE, PIN, SLIDER_PIN, loose_slider_crank, loose_support
+from tests.cases.run_cases import PIN, SLIDER_PIN, loose_slider_crank, loose_support
 
 LONG = 1e-3  # [s]
 SOLVER = SolverSettings(impact_steps=64, spectral_radius=0.287)
@@ -55,17 +54,6 @@ def test_a_shaken_support_is_as_the_compiled_one(
     for name in result.channels:
         if name.endswith(".force"):
             assert result[name].max() == pytest.approx(exact[name].max(), rel=0.03), name
-
-
-def test_in_space_it_is_as_in_the_plane() -> None:
-    plane = simulate(shaken(1.75, LONG, duration=0.06))
-    space = simulate(shaken(1.75, LONG, duration=0.06, dimensions=3))
-    assert len(space.onsets[PIN]) == 1
-    # Newton's method leaves 1e-8 of a step's forces
-    for name in ("tip.x", "tip.y", FORCE, "energy.kinetic"):
-        scale = float(np.abs(plane[name]).max())
-        np.testing.assert_allclose(space[name], plane[name], atol=1e-4 * scale)
-    assert space.energy_error == pytest.approx(plane.energy_error, rel=1e-3)
 
 
 def rattling(step: float) -> Scenario:

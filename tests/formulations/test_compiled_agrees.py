@@ -41,7 +41,7 @@ from support_exudyn import (
 from support_exudyn.files.machines.read import read_machine
 from tests.cases.cylinder_cases import on_cylinders
 from tests.cases.guide_cases import FreePair, slider_crank
-from tests.cases.law_cases import LUGRE
+from tests.cases.law_cases import LUGRE, cylinder_law
 from tests.cases.run_cases import PIN, loose_slider_crank, loose_support, paper_contact, support
 from tests.formulations import test_guide_clearance as guides
 from tests.formulations import test_slots_and_gears as slots
@@ -50,7 +50,7 @@ from tests.formulations.test_springs import FREE
 from tests.formulations.test_tail_beam import SOFT
 from tests.linkage_cases import CrankRocker
 from tests.roof_cases import GAP, over_the_canopy, pressed_support
-from user_forces import Ambrosio, value
+from user_forces import Ambrosio, Johnson, KelvinVoigt, Stribeck, value
 
 
 @value
@@ -99,6 +99,12 @@ def with_lugre() -> dict[str, Any]:
     return {PIN: ClearancePin(contact=replace(paper_contact(1.0, 0.0), friction=LUGRE))}
 
 
+def dropped(**laws: Any) -> Scenario:
+    """The support falls through its clearance pin and bounces."""
+    pin = ClearancePin(contact=replace(paper_contact(1.5, 0.0), **laws))
+    return support(pins={PIN: pin}, drive=Held(), duration=0.03)
+
+
 def loose_everywhere() -> Scenario:
     """The slider-crank with clearance in the guide and in two pins."""
     pin = ClearancePin.simple(clearance=2e-4, bore_radius=0.01, stiffness=1e8, restitution=0.6, friction=0.1)
@@ -114,6 +120,10 @@ SCENES: dict[str, Callable[[], Scenario]] = {
     "friction beside a loose pin": lambda: support(
         pins={**dict.fromkeys(PINS, RUBBING), **loose(PIN)}, drive=Held(), duration=0.03
     ),
+    # other laws: one that pulls and is cut, one of a line contact, friction with two coefficients
+    "a dashpot": lambda: dropped(normal=KelvinVoigt(stiffness=1e9, damping=5e4)),
+    "a line contact": lambda: dropped(normal=cylinder_law(Johnson)),
+    "Stribeck": lambda: dropped(friction=Stribeck(static_coefficient=0.3, sliding_coefficient=0.2)),
     # pins
     "bushing": lambda: support(pins={PIN: BUSHING}, drive=RISE, duration=0.08),
     "bushing, settled": lambda: support(pins={PIN: BUSHING}, drive=RISE, start="settled", duration=0.05),

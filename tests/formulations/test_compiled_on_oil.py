@@ -9,12 +9,10 @@ from typing import Literal
 import numpy as np
 import pytest
 
-from studies.contact_laws.catalogue import friction_laws, normal_laws
 from support_exudyn import (
     Body,
     ClearancePin,
     CubicStep,
-    Held,
     Linkage,
     Machine,
     OilColumn,
@@ -27,19 +25,17 @@ from support_exudyn import (
     simulate,
 )
 from support_exudyn.model.linkage import GROUND, pinned
-from tests.cases.run_cases import FORCE, PIN, paper_contact, support
+from tests.cases.run_cases import PIN, paper_contact, support
 from user_forces import (
     BrownMcPhee,
     Flores,
     JournalBearing,
     JournalContact,
-    LankaraniNikravesh,
     value,
 )
 
 OIL = OilColumn(bore_area=bore_area(0.25, number=2), oil_length=0.5, bulk_modulus=1.5e9)
 BOTH = {"front_column": OIL, "rear_column": OIL}
-NORMAL = ("exact", "kelvin_voigt", "anagnostopoulos", "johnson")
 
 
 def on_oil(tolerance: float = 1e-8, friction: float = 0.25, **changes: object) -> Scenario:
@@ -51,23 +47,6 @@ def on_oil(tolerance: float = 1e-8, friction: float = 0.25, **changes: object) -
         "solver": SolverSettings(tolerance=tolerance),
     }
     return support(**fields | changes)
-
-
-# --- against the formulation on Exudyn ---
-
-
-def test_the_formulation_on_exudyn_tends_to_the_compiled_one() -> None:
-    ours = simulate(on_oil(1e-11, drive=Held(), duration=0.06))
-    settings = SolverSettings(impact_steps=256)
-    base = on_oil(drive=Held(), duration=0.06, formulation="exudyn", step=1e-4, solver=settings)
-
-    def off(scene: Scenario) -> float:
-        return float(np.sqrt(np.mean((ours[FORCE] - simulate(scene)[FORCE]) ** 2)))
-
-    coarse, fine = off(base), off(base.refined(2))
-    # 1.6 of 413 000 N, and with second order
-    assert fine < 1e-5 * ours[FORCE].max()
-    assert 3.0 < coarse / fine < 5.0
 
 
 # --- its own accuracy ---
@@ -127,24 +106,6 @@ def test_energy_adds_up() -> None:
         assert result.energy_error < allowed * result.dissipated
 
 
-# of laws with hysteresis, a dashpot, one that asks for tension, cylinders, and of friction
-LAWS = {
-    **{f"normal {name}": {"normal": normal_laws(1.5, 0.3)[name]} for name in NORMAL},
-    **{f"friction {name}": {"friction": friction_laws(0.25)[name]} for name in ("stribeck", "threlfall")},
-}
-
-
-@pytest.mark.parametrize("name", LAWS)
-def test_laws_of_every_kind(name: str) -> None:
-    pin = ClearancePin(contact=replace(paper_contact(1.5, 0.0), **LAWS[name]))
-    coarse, fine = (simulate(on_oil(t, drive=Held(), duration=0.06, pins={PIN: pin})) for t in (1e-7, 1e-10))
-    assert len(coarse.onsets[PIN]) == len(fine.onsets[PIN]) >= 1
-    for one, other in zip(coarse.onsets[PIN], fine.onsets[PIN], strict=True):
-        assert one.speed == pytest.approx(other.speed, rel=1e-3, abs=1e-5)
-    assert fine.energy_error < 1e-6 * fine.dissipated
-    assert (fine["energy.friction_loss"][-1] > 0.1) == name.startswith("friction")
-
-
 # --- other linkages ---
 
 
@@ -174,31 +135,6 @@ class Bars(Machine):
         pins = {f"top{n}": pinned(GROUND, f"bar{n}", (0.1 * n, 0.0)) for n in range(self.number)}
         pins |= {f"low{n}": pinned(f"bar{n}", f"bar{n + 1}", (0.1 * n, -1.0)) for n in range(self.number - 1)}
         return Linkage(bodies=bars, pins=pins)
-
-
-def test_loose_pins_between_moving_bodies_of_several_branches() -> None:
-    contact = replace(
-        paper_contact(1.0, 0.2),
-        normal=LankaraniNikravesh(stiffness=1e9, restitution=0.7),
-    )
-    pins = {"low0": ClearancePin(contact=contact), "low1": ClearancePin(contact=contact, bore="second")}
-    scene = Scenario(
-        machine=Bars(number=3, spin=0.5),
-        pins=pins,
-        duration=0.15,
-        formulation="compiled",
-        step=5e-5,
-        solver=SolverSettings(tolerance=1e-9),
-    )
-    ours, theirs = simulate(scene), simulate(replace(scene, formulation="exudyn"))
-    for name in pins:
-        assert len(ours.onsets[name]) >= 2
-        for one, other in zip(ours.onsets[name][:3], theirs.onsets[name][:3], strict=True):
-            # errors of the implicit steps in two pins that strike each other
-            assert one.time == pytest.approx(other.time, abs=1e-5)
-            assert one.speed == pytest.approx(other.speed, rel=2e-3)
-    np.testing.assert_allclose(ours["bar1.angle"], theirs["bar1.angle"], atol=1e-6)
-    assert ours.energy_error < 1e-7 * ours.dissipated
 
 
 # --- what is refused ---

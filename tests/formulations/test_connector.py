@@ -4,18 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from functools import cache
-from typing import Literal
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from support_exudyn import ClearancePin, Result, Scenario, SolverSettings, simulate
-from support_exudyn.formulations.exudyn.scene.scene_builder import build
-from tests.cases.run_cases import PIN, Pair, loose_support
-from tests.formulations.test_momentum import ONE, TWO
 from tests.often import often
 from user_forces import (
     Ambrosio,
@@ -32,7 +26,6 @@ from user_forces import (
 from user_forces.connector.attachment import SHARE, Attachment, attachment, compiled_kernel, connector_kernel
 from user_forces.contact import Contact
 
-Bore = Literal["first", "second"]
 BEARING = JournalBearing(bore_radius=0.02, clearance=0.001)
 LAW = LankaraniNikravesh(stiffness=1e9, restitution=0.9)
 NEARLY = Ambrosio(sliding_coefficient=1e-12)  # no friction, but the connector of one
@@ -110,44 +103,3 @@ def test_force_and_moment_are_those_of_the_contact_about_any_point(
     assert about_journal == pytest.approx(want.journal_moment, abs=1e-6 * scale * (0.02 + abs(x)))
     machine = compiled_kernel(of.force_kernel, at, of.bearing.is_slot)
     assert machine(*numbers, np.array(of.constants))[:4] == pytest.approx((fx, fy, fz, moment), rel=1e-14)
-
-
-@cache
-def fly(law: JournalContact, bore: Bore) -> Result:
-    """Two free bodies that turn against each other, joined by the pin alone."""
-    scenario = Scenario(
-        machine=Pair(one=ONE, two=TWO, one_point=(0.2, 0.25), two_point=(0.2, 0.25)),
-        pins={"pin": ClearancePin(contact=law, bore=bore)},
-        duration=0.03,
-        step=1e-4,
-        gravity=(0.0, 0.0),
-        solver=SolverSettings(newton_tolerance=1e-10),
-    )
-    return simulate(scenario)
-
-
-@pytest.mark.parametrize("bore", ["first", "second"])
-def test_two_free_bodies_move_alike_on_every_connector(bore: Bore) -> None:
-    lean, full = (fly(contact(friction), bore) for friction in (Frictionless(), NEARLY))
-    one, two = lean.onsets["pin"], full.onsets["pin"]
-    assert len(one) == len(two) >= 3
-    # a coefficient of friction of 1e-12
-    assert [impact.time for impact in one] == pytest.approx([impact.time for impact in two], rel=1e-8)
-    assert [impact.speed for impact in one] == pytest.approx([impact.speed for impact in two], rel=1e-6)
-    for name in ("one.x", "two.angle", "one.angular_velocity"):
-        np.testing.assert_allclose(lean[name], full[name], rtol=1e-7, atol=1e-9)
-
-
-def test_memory_is_that_of_the_last_step_that_stands() -> None:
-    # a step that is tried and given up must leave nothing behind
-    pin = build(loose_support()).clearance_joints[PIN]
-    kept, deep = pin.kept, pin.contact.bearing.clearance + 1e-4
-    pin.begin_try(1e-3)
-    pin.user_function(None, 0.0, 0, deep - pin.contact.bearing.clearance, 0.5)
-    assert pin.after_newton(1e-3) is not None
-    assert pin.wants_cut
-    assert pin.kept == kept
-    pin.begin_try(5e-4)
-    assert pin.memory == kept
-    assert not pin.wants_cut
-    assert pin.landing < 1e-3

@@ -261,11 +261,3 @@ def test_a_bump_between_two_falling_ends_is_a_touch() -> None:
     assert driven(Course(1e7 * DEPTH * bump, closed=False))[0][0] == IMPACT
     # it lies within the first part of a step
     assert find(Course(1e5 * DEPTH * bump, closed=False), 0.0, 0.05)[0] == UNCLEAR
-
-
-def test_what_has_just_been_met_is_not_met_again() -> None:
-    rounding = 1e-15
-    # just been in contact, a little before zero depth by rounding, on the way in
-    assert find(Course(Polynomial([-rounding, 1e-3, -1e-3]), closed=True), 0.0, 0.1)[0] == NOTHING
-    # just separated, a little after it, on the way out
-    assert find(Course(Polynomial([rounding, -1e-3, 1e-4]), closed=False), 0.0, 0.1)[0] == NOTHING

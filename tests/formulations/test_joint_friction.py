@@ -179,16 +179,6 @@ def test_a_pin_in_a_slot_rubs_and_rolls_alike_in_both_formulations() -> None:
     assert fast.energy_error < 1e-6 * fast["energy.friction_loss"][-1]
 
 
-@pytest.mark.parametrize("law", [DRY, STICKING])
-def test_a_block_with_a_rubbing_pin_is_alike_in_both_formulations(law: FrictionLaw) -> None:
-    guides: dict[str, Guide] = {"g": IdealGuide(friction=law, block=(0.06, 0.06))}
-    pins = {"B": IdealPin(friction=law, radius=0.02)}
-    scene = Scenario(machine=Crankshaft(), drive=Steady(rate=OMEGA), duration=0.1, pins=pins, guides=guides)
-    fast, slow = (way(scene) for way in WAYS.values())
-    # at dead centres the slip passes the ramp within a step of the Exudyn formulation
-    assert fast["energy.friction_loss"][-1] == pytest.approx(slow["energy.friction_loss"][-1], rel=2e-4)
-
-
 def test_a_guide_that_jams_is_refused_with_its_name() -> None:
     guides: dict[str, Guide] = {"g": IdealGuide(friction=Ambrosio(sliding_coefficient=5.0))}
     scene = Scenario(machine=Crankshaft(), drive=Steady(rate=OMEGA), duration=0.1, guides=guides)

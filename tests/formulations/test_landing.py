@@ -6,8 +6,6 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from hypothesis import example, given
-from hypothesis import strategies as st
 
 from support_exudyn.formulations.compiled import events, landing
 from support_exudyn.formulations.compiled.integrate import StepEvents, land_on_first
@@ -16,53 +14,6 @@ from support_exudyn.scene.arrays import CONTACT, IMPACTS, REPORT
 from tests.formulations.plain import plain
 
 STEP = 0.125
-
-
-class Turning:
-    """A rate that rises over a step, steeply first or last, and passes zero at a share of it."""
-
-    def __init__(self, turn: float, flat: float, late: bool) -> None:
-        self.turn, self.flat, self.late = turn, flat, late
-        self.looked: list[float] = []
-
-    def rate(self, x: float) -> float:
-        if self.late:
-            return x**self.flat - self.turn**self.flat
-        return (1.0 - self.turn) ** self.flat - (1.0 - x) ** self.flat
-
-    def look(self, length: float) -> float:
-        self.looked.append(length / STEP)
-        return self.rate(length / STEP)
-
-    def check(self, length: float) -> None:
-        assert length / STEP == self.looked[-1]  # where it ends is what was made last
-        for n, x in enumerate(self.looked[1:], 1):
-            low = max([0.0, *(other for other in self.looked[:n] if self.rate(other) < 0.0)])
-            high = min([1.0, *(other for other in self.looked[:n] if self.rate(other) >= 0.0)])
-            # rounding
-            assert low - 1e-9 <= x <= high + 1e-9
-
-
-def landed(turning: Turning) -> float:
-    def advance(scene: SimpleNamespace, t: float, length: float, *rest: object) -> None:
-        scene.contacts[0].push = turning.look(length)
-
-    start, now = (np.zeros(1, CONTACT).view(np.recarray) for _ in range(2))
-    start[0].push, now[0].push = turning.rate(0.0), turning.rate(1.0)
-    scene, report = SimpleNamespace(contacts=now), [0.0] * REPORT
-    land = plain(landing.land, advance=advance)
-    length: float = land(scene, 0, 0.0, STEP, events.CUT, 0.5, start, None, None, None, None, None, report)
-    return length
-
-
-@given(turn=st.floats(0.05, 0.95), flat=st.floats(1.0, 8.0), late=st.booleans())
-@example(turn=0.16, flat=8.0, late=False)
-@example(turn=0.84, flat=8.0, late=True)
-def test_a_turn_is_sought_between_the_nearest_looks_on_either_side(
-    turn: float, flat: float, late: bool
-) -> None:
-    turning = Turning(turn, flat, late)
-    turning.check(landed(turning))
 
 
 @pytest.mark.parametrize("what", [events.IMPACT, events.SEPARATION])

@@ -243,10 +243,6 @@ def test_a_swing_that_stays_in_contact_is_no_new_contact(bottom: float, above: f
 deep = st.floats(5e-4, 1e-3)
 
 
-# far above what rounding makes of the mean of the rate
-inward, outward = st.floats(1e-6, 0.5), st.floats(-0.5, -1e-6)
-
-
 # --- nothing has surely happened ---
 
 

@@ -2,35 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import pytest
 
-from support_exudyn import ClearancePin, Held, Scenario, SimulationError
-from tests.cases.run_cases import PIN, paper_contact, support
-from tests.compiled_runs import simulate_on_exudyn
-from user_forces import Flores
-from user_forces.connector.contact_connector import ContactConnector
-from user_forces.contact import ContactForce
-from user_forces.lawful import LawError
 from user_forces.roots import has_a_top, peak
-
-LAW = Flores(restitution=0.485, stiffness=5.7e8, exponent=1.167)
-
-
-def dropping() -> Scenario:
-    contact = replace(paper_contact(0.5, 0.0), normal=LAW)
-    pins = {PIN: ClearancePin(contact=contact)}
-    return support(drive=Held(), duration=0.032, pins=pins, channels=("tip.x",))
-
-
-def test_a_law_that_gives_no_force_inside_a_step_is_told_with_its_pin(monkeypatch: pytest.MonkeyPatch) -> None:
-    def fail(pin: ContactConnector, x: float) -> ContactForce:
-        raise LawError(f"no force at {x:g} of a step")
-
-    monkeypatch.setattr(ContactConnector, "force_within", fail)
-    with pytest.raises(SimulationError, match=f"{PIN}: no force at "):
-        simulate_on_exudyn(dropping())
 
 
 @pytest.mark.parametrize("top", [0.01, 0.3, 0.5, 0.93, 0.99])

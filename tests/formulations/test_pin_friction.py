@@ -9,9 +9,7 @@ import pytest
 
 from support_exudyn import (
     Body,
-    ClearancePin,
     CubicStep,
-    Held,
     IdealPin,
     Linkage,
     Machine,
@@ -23,7 +21,7 @@ from support_exudyn import (
 )
 from support_exudyn.model.linkage import pinned
 from support_exudyn.postprocessing.pytest_plugin import AssertClose, SimulateCached
-from tests.cases.run_cases import paper_contact, support
+from tests.cases.run_cases import support
 from user_forces import Ambrosio, InputError, value
 
 MASS, INERTIA, G, RADIUS, MU = 50.0, 2.0, 9.81, 0.05, 0.3
@@ -104,17 +102,6 @@ def test_energy_adds_up_with_friction_in_all_pins(
     more = fine["energy.work"][-1] - plain["energy.work"][-1]
     assert more == pytest.approx(fine["energy.friction_loss"][-1], rel=1e-4)
     assert_close(fine, plain, "1e-7 mm", channels=["tip.y"])  # the actuators' lengths say where
-
-
-@pytest.mark.parametrize("sliding", [0.0, 0.25])
-def test_energy_adds_up_with_friction_beside_a_loose_pin(sliding: float) -> None:
-    pins: dict[str, Pin] = dict.fromkeys(PINS, SUPPORT_PIN)
-    pins["rear_base"] = ClearancePin(contact=paper_contact(1.0, sliding))
-    result = simulate(support(drive=Held(), duration=0.06, pins=pins))
-    assert len(result.onsets["rear_base"]) > 1
-    assert result.counts.failed_newton == 0
-    # as without friction in the ideal pins; measured 4e-5
-    assert result.energy_error < 3e-4 * result.dissipated
 
 
 def test_friction_and_radius_go_together() -> None:

@@ -12,7 +12,6 @@ from scipy.optimize import brentq
 
 from support_exudyn import (
     AppliedForce,
-    ClearancePin,
     CubicStep,
     Held,
     OilColumn,
@@ -23,13 +22,12 @@ from support_exudyn import (
     simulate,
 )
 from support_exudyn.mechanics.kinetics import kinetics_of
-from tests.cases.run_cases import PIN, loose_support
+from tests.cases.run_cases import loose_support
 from tests.compiled_runs import simulate_compiled
 from tests.roof_cases import (
     DAMPED,
     GAP,
     GIVES_DAMPED,
-    GIVES_ON_OIL,
     HARD,
     MASS,
     ON_OIL,
@@ -38,7 +36,6 @@ from tests.roof_cases import (
     TEN_MEGANEWTONS,
     TOP,
     Ram,
-    elastic_block,
     over_the_canopy,
     over_the_ram,
     pressed_support,
@@ -132,22 +129,6 @@ def test_an_applied_force_gives_its_work_to_the_ram() -> None:
     assert result.energy_error < 1e-4 * 0.5 * MASS * speed**2
 
 
-@FORMULATIONS
-def test_a_block_that_waits_is_an_elastic_impact(formulation: str) -> None:
-    # 250 kg meet 1 t that comes up at 1 m/s, after 10 mm; without weight, loss and outer force
-    block = elastic_block(body="ram", point=TOP, mass=MASS / 4.0, height=0.01, stiffness=STIFFNESS)
-    result = by(formulation, replace(thrown(0.01, 1e-4), loads={"block": block}))
-    # the formulas of an elastic impact; second order in the steps: 1e-5
-    close = 6e-5 if formulation == "exudyn" else 1e-6
-    assert result["ram.velocity_y"][-1] == pytest.approx(0.6, abs=close)
-    assert result["block.velocity_y"][-1] == pytest.approx(1.6, abs=close)
-    assert result.energy_error < 1e-2  # of 500 J
-    # both masses together as one of a fifth of a ton; half a swing, second order
-    (onset,) = result.onsets["block"]
-    lasted = onset.separation_time - onset.time
-    assert lasted == pytest.approx(math.pi * math.sqrt(MASS / 5.0 / STIFFNESS), rel=1e-5)
-
-
 # --- the support under 10 MN ---
 
 
@@ -198,40 +179,6 @@ def test_actuators_and_pins_carry_an_applied_force(actuators: dict[str, OilColum
         assert result[f"{name}.force"][-1] == pytest.approx(thrust, rel=1e-6)
     # 1 MN over some tenths of a millimetre of oil
     assert result.energy_error < 1e-4 * max(1.0, result["energy.work"].max())
-
-
-@pytest.mark.parametrize("kind", ["rigid, ideal", "oil, ideal"])
-def test_actuators_and_pins_carry_what_statics_say(kind: str) -> None:
-    result = pressed(kind, duration=0.3 if kind == "rigid, ideal" else 0.8)
-    assert result["roof.force"][-1] == pytest.approx(TEN_MEGANEWTONS, rel=0.01)  # by how much oil was guessed
-    pins, actuators = reactions(result, (0.0, -result["roof.force"][-1]))
-    # what is left of vibrations that lines damp for 0.7 s
-    for name, thrust in zip(("front_column", "rear_column"), actuators, strict=True):
-        assert result[f"{name}.force"][-1] == pytest.approx(thrust, rel=1e-7)
-        assert thrust > 4.9e6
-    for name, force in zip(result.scenario.linkage.pins, pins, strict=True):
-        size = float(np.hypot(*force))
-        assert result[f"pin.{name}.force"][-1] == pytest.approx(size, rel=1e-7)
-    # the roof itself is where it has come to: no more of it is known
-    depth = -result["roof.gap"][-1]
-    assert result["roof.force"][-1] == pytest.approx(HARD * depth, rel=1e-12)  # rounding
-
-
-def test_a_loose_pin_is_pressed_with_the_force_of_statics() -> None:
-    # one that soon rests
-    base = WITH_CLEARANCE[PIN].contact
-    pin = ClearancePin(contact=replace(base, normal=replace(base.normal, restitution=0.3)))
-    result = simulate(replace(press("oil, clearance"), pins={PIN: pin}, start="settled"))
-    place = list(result.scenario.linkage.pins).index(PIN)
-    late = np.flatnonzero(result.time > 0.25)
-    # forces along the line of centres have the same moment wherever on it they act: as in an ideal pin
-    wanted = np.array([reactions(result, (0.0, -result["roof.force"][row]), row)[0][place] for row in late])
-    found = np.array([result[f"pin.{PIN}.force_{axis}"][late] for axis in "xy"]).T
-    size = float(np.hypot(*wanted[-1]))
-    # it shakes by 2 %; of the mean over 50 ms that leaves 5e-4
-    np.testing.assert_allclose(found.mean(axis=0), wanted.mean(axis=0), atol=2e-3 * size)
-    # fourteen times what the weight alone presses it with
-    assert size > 8e5
 
 
 @pytest.mark.parametrize(
@@ -287,14 +234,3 @@ def test_a_settled_start_takes_the_roof_as_it_is(gap: float) -> None:
     pressing = result["roof.force"][0]
     assert pressing > 1e4 if gap == 0.0 else pressing == 0.0
     np.testing.assert_allclose(result["roof.force"], pressing, rtol=1e-6)
-
-
-def test_forces_converge_with_second_order() -> None:
-    lowered = over_the_canopy(GAP + 0.01 + GIVES_ON_OIL, end=0.1)
-    scene = pressed_support(lowered, actuators=ON_OIL, duration=0.12, channels=("roof.*", "pin.*"))
-    coarse, middle, fine = (simulate(replace(scene, step=step)) for step in (1e-3, 5e-4, 2.5e-4))
-    for name in ("roof.force", f"pin.{PIN}.force"):
-        first = np.abs(coarse[name] - middle[name])[60:].max()
-        second = np.abs(middle[name] - fine[name])[60:].max()
-        # 4 with second order, 2 with first; where in a step the roof lands makes it scatter
-        assert 3.2 < first / second < 6.0, name

@@ -10,14 +10,12 @@ import pytest
 
 from support_exudyn import (
     ClearancePin,
-    Held,
     Onset,
     Result,
     Scenario,
     simulate,
 )
 from support_exudyn.model.spatial_linkage import Bearing, SpatialBody, SpatialLinkage
-from tests.cases.run_cases import PIN, loose_support
 from tests.cases.spatial_cases import LENGTH, InSpace, contact
 from tests.user_forces.test_restitution import scenario
 from user_forces import LankaraniNikravesh
@@ -51,20 +49,6 @@ def test_the_time_of_a_parting_is_that_of_the_records() -> None:
 
 
 # --- formulations ---
-
-
-def test_in_space_edges_and_the_whole_part_as_in_the_plane() -> None:
-    plane = loose_support(1.5, 0.0, drive=Held(), duration=0.05)
-    space = simulate(replace(plane, dimensions=3))
-    flat = simulate(plane).onsets[PIN]
-    assert flat[0].separation_time < 0.03  # else the test says nothing
-    for name in (PIN, f"{PIN}.left", f"{PIN}.right"):
-        assert len(space.onsets[name]) == len(flat)
-        for one, other in zip(space.onsets[name], flat, strict=True):
-            # the same motion to 1e-9, and separations lie at the ends of steps of 5 us: measured 2e-9 s, 3e-7
-            # m/s
-            assert one.separation_time == pytest.approx(other.separation_time, abs=1e-7)
-            assert one.separation_velocity == pytest.approx(other.separation_velocity, abs=1e-5)
 
 
 def test_a_journal_in_space_has_parted_when_its_last_section_has() -> None:

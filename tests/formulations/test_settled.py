@@ -53,14 +53,6 @@ def test_the_force_tends_to_that_of_the_ideal_pin() -> None:
     assert 50.0 < (excess[0] - excess[1]) < 90.0
 
 
-def test_it_is_where_a_concentric_start_comes_to_rest() -> None:
-    fallen = simulate(loose_support(drive=Held(), duration=2.0, record_period=0.5))
-    result = simulate(settled())
-    # what is left of the vibration after 2 s
-    assert fallen[FORCE][-1] == pytest.approx(result[FORCE][0], rel=1e-5)
-    assert fallen["tip.x"][-1] == pytest.approx(result["tip.x"][0], abs=1e-8)
-
-
 def test_bodies_that_nothing_holds_have_no_equilibrium() -> None:
     machine = Pair(one=ONE, two=TWO, one_point=(0.2, 0.25), two_point=(0.2, 0.25))
     pin = ClearancePin(contact=paper_contact(1.5, 0.0))

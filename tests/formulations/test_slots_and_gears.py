@@ -26,7 +26,7 @@ from support_exudyn import (
 )
 from support_exudyn.machines.check.statics import mobility, statics
 from support_exudyn.model.linkage import pinned
-from user_forces import InputError, value
+from user_forces import value
 
 RADIUS, SPEED = 0.1, 20.0  # of the crank [m], [rad/s]
 CRANK, YOKE, G = 1.5, 4.0, 9.81  # [kg]
@@ -216,20 +216,6 @@ def test_a_planet_adds_inertia_to_its_arm(formulation: Any) -> None:
     fallen = -(2.0 * 0.15 + 3.0 * 0.3) * G * np.sin(run["arm.angle"])
     np.testing.assert_allclose(0.5 * inertia * run["arm.angular_velocity"] ** 2, fallen, atol=1e-4)
     assert run["arm.angle"][-1] < -0.5
-
-
-@pytest.mark.parametrize(
-    ("gear", "said"),
-    [
-        ({"first": "wheel", "second": "wheel"}, "two different bodies"),
-        ({"first": "wheel", "second": "ground"}, "no such moving body"),
-        ({"first": "wheel", "second": "pinion", "ratio": 0.0}, "any other number"),
-    ],
-)
-def test_gears_of_no_use_are_refused(gear: dict[str, object], said: str) -> None:
-    bodies = GearPair().linkage().bodies
-    with pytest.raises(InputError, match=said):
-        Linkage(bodies=bodies, gears={"mesh": Gear(**gear)})
 
 
 # --- guides ---

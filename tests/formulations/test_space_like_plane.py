@@ -115,18 +115,6 @@ def test_impulses_of_both_actuators_add_up(case: str) -> None:
             assert sides[0] == pytest.approx(sides[1], rel=1e-5)  # solved with a small lift; 2e-7
 
 
-def test_both_actuators_of_a_pair_carry_half_each() -> None:
-    plane, space = both("oil")
-    for name in ("front_column", "rear_column"):
-        largest = np.abs(plane[f"{name}.force"]).max()
-        # as positions, times 1e8 N/m
-        np.testing.assert_allclose(space[f"{name}.force"], plane[f"{name}.force"], atol=1e-4 * largest)
-        for side in ("left", "right"):
-            half = 0.5 * space[f"{name}.force"]
-            # lengths and their rates differ by rounding of an impact; measured 4e-8
-            np.testing.assert_allclose(space[f"{name}_{side}.force"], half, rtol=0.0, atol=1e-6 * largest)
-
-
 def test_a_scenario_in_space_is_saved_and_pickled(tmp_path: Path) -> None:
     scenario = replace(CASES["friction"], dimensions=3, duration=0.02, channels=("tip.*", "pin.rear_base*"))
     result = simulate(scenario)

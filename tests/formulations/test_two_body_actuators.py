@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from support_exudyn import (
-    ClearancePin,
     CubicStep,
     Drive,
     Held,
@@ -21,7 +20,7 @@ from support_exudyn import (
     reference_support,
     simulate,
 )
-from tests.cases.run_cases import paper_contact, support
+from tests.cases.run_cases import support
 
 G = 9.81
 RISE = CubicStep(start=0.05, end=0.45, stroke=0.1)
@@ -70,14 +69,6 @@ def test_pins_and_guide_carry_what_a_static_balance_says(held: Result, name: str
     assert held[f"{name}_guide.moment"][-1] == pytest.approx(rod * abs(n[1]) * model.rod_centre, abs=1e-3)
 
 
-@pytest.mark.parametrize("drive", [None, OIL], ids=["rigid", "oil"])
-def test_a_machine_at_rest_stays_there(drive: OilColumn | None) -> None:
-    still = simulate(support(actuators=cylinders_and_rods(drive), drive=Held(), duration=0.2))
-    np.testing.assert_allclose(still["tip.y"], still["tip.y"][0], atol=1e-12)  # rounding
-    np.testing.assert_allclose(still["front_column.force"], still["front_column.force"][0], rtol=1e-6)
-    assert still.energy_error < 1e-6
-
-
 # --- energy ---
 
 
@@ -108,13 +99,3 @@ def test_the_impulse_of_a_sudden_start_passes_through_rod_and_cylinder() -> None
     # with two bodies more is to be set in motion than with massless actuators and rods on the canopy
     plain = simulate(replace(result.scenario, actuators={}))
     assert plain.impulses[0].energy != pytest.approx(first.energy, rel=1e-4)
-
-
-def test_energy_adds_up_with_a_loose_pin_of_an_actuator() -> None:
-    # held: with rigid actuators that move, rounding of their forces in the short steps of impacts shows in the
-    # work (0.3 J here, 0.6 J on massless actuators)
-    pins = {"front_column_head": ClearancePin(contact=paper_contact(1.0, 0.25))}
-    result = simulate(support(pins=pins, actuators=cylinders_and_rods(), drive=Held(), duration=0.2))
-    assert len(result.onsets["front_column_head"]) > 1
-    # as on massless actuators (`test_legs_in_machines`, which says 3e-4); measured 1e-4 and less
-    assert result.energy_error < 5e-4 * result.dissipated

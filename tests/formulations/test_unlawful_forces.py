@@ -75,14 +75,6 @@ def dividing(depth: float, rate: float, impact_velocity: float) -> float:
     return 1e9 * depth * (rate / rate)
 
 
-def nothing(depth: float, rate: float, impact_velocity: float) -> Any:
-    return None
-
-
-def raising(depth: float, rate: float, impact_velocity: float) -> float:
-    raise KeyError("stiffness")
-
-
 def along(slip: float, normal_force: float) -> float:
     return 0.1 * normal_force * math.tanh(slip / 1e-3)
 
@@ -91,29 +83,6 @@ def slippery(slip: float, normal_force: float) -> float:
     if 2e-3 < abs(slip) < 5e-2:  # between the slips at which laws are called before a run
         return math.nan
     return -0.1 * normal_force * math.tanh(slip / 1e-3)
-
-
-def gripping(slip: float, normal_force: float) -> float:
-    return -50.0 * normal_force * math.tanh(slip / 1e-3)
-
-
-def silent(slip: float, normal_force: float) -> Any:
-    return None
-
-
-@value
-class Richer(NormalLaw):
-    """Its energy is 2.2 times the integral of its force."""
-
-    @staticmethod
-    @kernel
-    def force(depth: float, rate: float, impact_velocity: float) -> float:
-        return 1e9 * depth
-
-    @staticmethod
-    @kernel
-    def energy(depth: float) -> float:
-        return 1.1e9 * depth * depth
 
 
 @value
@@ -203,31 +172,6 @@ def test_a_law_that_is_none_at_rest_is_refused_before_the_run(law: NormalLaw, wa
     assert failure.time == 0.0
 
 
-@pytest.mark.parametrize(
-    ("law", "said"),
-    [
-        (normal_law(nothing)(), "Nothing.elastic_force fails at a depth of 1e-09 m: TypeError"),
-        (
-            normal_law(raising)(),
-            "Raising.elastic_force fails at a depth of 1e-09 m: KeyError: 'stiffness'",
-        ),
-        (Richer(), "1.1e-09 J at a depth of 1e-09 m, and the integral of elastic_force up to there 5e-10 J"),
-        (
-            friction_law(gripping)(),
-            "Gripping has a coefficient of 38.0797 at a slip of 0.001 m/s and 1000 N; allowed: 0 to 5",
-        ),
-        (friction_law(silent)(), "Silent fails at a slip of 0 m/s and 1000 N: TypeError"),
-    ],
-    ids=lambda item: type(item).__name__,
-)
-def test_a_law_is_refused_in_a_sentence_before_the_run(law: Any, said: str) -> None:
-    laws = (law, None) if isinstance(law, NormalLaw) else (Spring(), law)
-    assert refused(with_clearance(*laws), PIN, said).time == 0.0
-    if isinstance(law, FrictionLaw):
-        pins = {"rear_base": IdealPin(friction=law, radius=0.06)}
-        refused(support(pins=pins, drive=Held(), duration=0.02), "rear_base", said)
-
-
 @pytest.mark.parametrize("way", WAYS)
 def test_the_law_that_they_are_made_from_passes(way: str) -> None:
     assert not isinstance(simulate(with_clearance(Spring(), **WAYS[way]), throw=False), Failure)
@@ -265,11 +209,6 @@ class Lost(Drive):
 
     def span(self, duration: float) -> tuple[float, float]:
         return 0.0, duration**2
-
-
-@pytest.mark.parametrize("way", BOTH)
-def test_a_drive_is_refused(way: str) -> None:
-    refused(with_clearance(Spring(), drive=Lost(), **WAYS[way]), "Lost has an extension of nan")
 
 
 def test_a_drive_of_ideal_pins_is_refused() -> None:

@@ -16,9 +16,7 @@ from support_exudyn.files.machines.read import read_machine
 from support_exudyn.machines.check import CheckReport as Report
 from support_exudyn.machines.check import check_machine
 from support_exudyn.machines.check.drive_way import Moved
-from support_exudyn.machines.check.statics import mobility
 from support_exudyn.machines.four_bar_shield import FourBarShield
-from support_exudyn.machines.free_impact import ImpactStand
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.model.linkage import lumped
 from support_exudyn.model.plane_geometry import moved
@@ -157,27 +155,6 @@ def test_pin_and_column_forces_are_those_of_equilibrium(name: str, tmp_path: Pat
             assert push == pytest.approx(exact[column], abs=margin), column
 
 
-@pytest.mark.parametrize("name", SHIELDS)
-def test_pushes_do_the_work_that_lifts_the_weight(name: str) -> None:
-    """Virtual work: sum of push times extension is the gain of potential energy, over a small step."""
-    data = read_machine(name)
-    machine: Any = data.machine
-    (way,), h = check_machine(data).ways, 1e-4
-    here = way.moved[len(way.moved) // 2]
-    middle = machine.start()
-    for travel in np.linspace(0.0, here.travel, 40).tolist():
-        middle = machine.extended(travel, middle)
-    before, after = (machine.extended(here.travel + step, middle) for step in (-h, h))
-    energies = [
-        sum(G * lumped(machine.parts[n]).mass * c[1] for n, c in centres(machine, one).items())
-        for one in (before, after)
-    ]
-    lengths = np.subtract(machine.column_lengths(after), machine.column_lengths(before))
-    work = float(lengths @ list(here.forces.actuators.values()))
-    # central difference: h^2 times third derivatives; lengths are met to 1e-11 m of 2e-4
-    assert work == pytest.approx(energies[1] - energies[0], rel=1e-6)
-
-
 def test_a_slider_crank_by_hand() -> None:
     """Moment of the drive by virtual work; the guide has no moment to bear since the pin is in its middle."""
     data = read_machine("slider_crank")
@@ -237,23 +214,6 @@ def test_doubts(tmp_path: Path, doubt: str) -> None:
     assert any(said in warning for warning in report.warnings), report.warnings
 
 
-def test_our_own_support_gives_none(tmp_path: Path) -> None:
-    report = check_machine(load_machine(written(tmp_path)))
-    assert report.warnings == []
-    assert any("canopy: its 5200 kg are a uniform bar" in note for note in report.notes)
-    assert any("no [width_mm]" in note for note in report.notes)
-
-
-def test_metres_in_place_of_millimetres(tmp_path: Path) -> None:
-    text = OURS.replace("= 2050", "= 2.05").replace("= 600", "= 0.6")
-    for line in OURS.splitlines():
-        if " = [" in line:
-            name, x, y = line.replace(" = [", ", ").rstrip("]").split(", ")
-            text = text.replace(line, f"{name} = [{float(x) / 1e3}, {float(y) / 1e3}]")
-    report = check_machine(load_machine(written(tmp_path, text=text)))
-    assert any("are they given in metres?" in warning for warning in report.warnings)
-
-
 def test_a_stroke_may_be_asked_for_and_may_be_too_long() -> None:
     data = read_machine("reference")
     assert check_machine(data, 0.1).numbers["stroke_m"] == 0.1
@@ -265,32 +225,7 @@ def test_a_stroke_may_be_asked_for_and_may_be_too_long() -> None:
         check_machine(read_machine("slider_crank"), 1.0)
 
 
-def test_a_machine_that_nothing_drives_has_no_static_forces() -> None:
-    stand = ImpactStand(bore_mass=1.0, journal_mass=1.0, speed=0.1)
-    found = check_machine(MachineData(stand))
-    assert found.kind == "ImpactStand"
-    assert found.sheets == []
-    assert found.warnings == []
-    assert "nothing joins them to the ground" in "".join(found.facts)
-
-
 # --- faults that nobody would have noticed ---
-
-
-def test_freedom_of_a_slider_crank() -> None:
-    """3 bodies, 3 pins, 1 guide without turn: 9 - 6 - 2 = 1, which the crank's drive takes."""
-    found = mobility(read_machine("slider_crank").machine.linkage())
-    assert (found.counted, found.free, found.driven, found.left) == (1, 1, 1, 0)
-
-
-def test_the_guide_bears_what_the_rod_leaves_it() -> None:
-    """Equilibrium of the slider across the guide: its weight and the push of the pin."""
-    data = read_machine("slider_crank")
-    machine: Any = data.machine
-    for one in check_machine(data).data()["stations"]:
-        guide = abs(one["guides_N"]["guide"])
-        # the pin's force is that of the slider on the rod; rounding of some N
-        assert guide == pytest.approx(abs(one["pins_N"]["slider_pin"][1] + G * machine.slider_mass), abs=1e-10)
 
 
 @pytest.mark.parametrize(

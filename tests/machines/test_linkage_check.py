@@ -21,7 +21,7 @@ from support_exudyn.model.loads.load import ActingLoad
 from support_exudyn.model.loads.springs import SpringDamper, TorsionSpring
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.figures.linkage_check import check_figure
-from tests.drawn.drawn_linkages import bar_of, chain, towards
+from tests.drawn.drawn_linkages import bar_of, towards
 from tests.linkages import four_bar
 from tests.often import often
 from user_forces import InputError
@@ -258,12 +258,6 @@ def test_a_bar_too_many_is_told_and_moves_all_the_same() -> None:
         assert turns == pytest.approx([one.travel, 0.0, one.travel, one.travel], abs=1e-5)
 
 
-def test_two_cranks_that_fight_are_told() -> None:
-    report = checked(driven(four_bar(*CRANK_ROCKER), "crank", "rocker"))
-    assert report.warnings[0].startswith("cranks.crank and cranks.rocker: one drive too many")
-    assert report.ways == []
-
-
 def test_a_free_crank_moves_freely_and_is_not_warned_of() -> None:
     report = checked(four_bar(*CRANK_ROCKER))
     assert report.warnings == []
@@ -289,31 +283,6 @@ def test_a_freedom_too_many_is_told_with_what_moves() -> None:
 
 
 # --- all of it ---
-
-
-@pytest.mark.slow
-@settings(max_examples=often(10), deadline=None)
-@given(seed=st.integers(0, 2**32 - 1), pairs=st.integers(1, 3))
-def test_any_chain_is_checked_and_drawn(seed: int, pairs: int) -> None:
-    linkage = driven(chain(np.random.default_rng(seed), pairs), "crank")
-    report = checked(linkage)
-    assert report.numbers["degrees_of_freedom"] == {"counted": 1, "free": 1, "driven": 1, "left": 0}
-    (way,) = report.ways
-    assert way.right_round or way.locks
-    for one in way.moved:  # every posture is closed
-        for pin in linkage.pins.values():
-            gap = kinetics_of(linkage).relative(one.position, pin)[0]
-            assert float(np.hypot(*gap)) < 1e-11
-    with style.look():
-        check_figure(report).canvas.draw()
-
-
-def test_linkages_are_drawn(excavator: CheckReport) -> None:
-    with style.look():
-        for report in (excavator, checked(four_bar(*CRANK_ROCKER))):
-            figure = check_figure(report)
-            figure.canvas.draw()
-            assert len(figure.axes) == (4 if report.ways else 1)
 
 
 @pytest.mark.parametrize("length", [0.7, 1.1, 1.6, 1.9, 2.3])

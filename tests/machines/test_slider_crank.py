@@ -99,29 +99,6 @@ def test_pins_coincide_and_bodies_have_their_lengths(one: SliderCrank) -> None:
     Scenario(machine=one, drive=Steady(rate=1.0), duration=1.0)
 
 
-@given(one=machines)
-def test_bodies_lie_along_crank_and_rod_with_their_centres_in_the_middle(one: SliderCrank) -> None:
-    linkage = one.linkage()
-    ends = {
-        "crank": (linkage.pins["main"].first_point, linkage.pins["crank_pin"].first_point),
-        "rod": (linkage.pins["crank_pin"].first_point, linkage.pins["slider_pin"].first_point),
-    }
-    for name, (start, end) in ends.items():
-        body, along = linkage.bodies[name], np.subtract(end, start)
-        # rounding of lengths up to 22 m
-        assert body.centre == pytest.approx(0.5 * np.add(start, end), abs=1e-14)
-        direction = np.array([math.cos(body.angle), math.sin(body.angle)])
-        assert direction == pytest.approx(along / np.linalg.norm(along), abs=1e-13)
-    slider = linkage.bodies["slider"]
-    assert (slider.centre, slider.angle) == (linkage.pins["slider_pin"].first_point, 0.0)
-
-
-@pytest.mark.parametrize("turns", [1.0, -100.0])
-def test_the_crank_turns_right_round_as_often_as_asked(turns: float) -> None:
-    drive = Steady(rate=2.0 * math.pi * turns)
-    assert Scenario(machine=machine(), drive=drive, duration=1.0).drive == drive
-
-
 # --- bad input, and back from data ---
 
 

@@ -10,7 +10,7 @@ import pytest
 from support_exudyn import CubicStep, Drive, Held, Scenario, Steady, UniformSpeed
 from support_exudyn.files.machines.read import read_machine
 from support_exudyn.machines.two_leg_shield import TwoLegShield
-from support_exudyn.model.drives.coupled_drive import CoupledDrive, following
+from support_exudyn.model.drives.coupled_drive import CoupledDrive
 from support_exudyn.model.plane_geometry import distance
 from user_forces import InputError
 
@@ -74,24 +74,6 @@ def test_breaks_jumps_and_starts_are_those_of_the_leg(shield: TwoLegShield) -> N
     assert ram.speed(5.0) + ram.speed_jump(5.0) == pytest.approx(0.0, abs=1e-15)
     steady = Scenario(machine=shield, drive=Steady(rate=0.1), duration=2.0).drive_of("ram")
     assert steady.initial_speed == steady.speed(0.0) != 0.0
-
-
-def test_what_no_polynomial_follows_is_refused() -> None:
-    with pytest.raises(InputError, match="without bounds"):
-        following(CubicStep(stroke=1.0), 5.0, np.sqrt)
-
-
-def test_a_scenario_may_drive_the_ram(shield: TwoLegShield) -> None:
-    said: dict[str, Drive] = {"ram": CubicStep(stroke=-0.05)}
-    scenario = Scenario(machine=shield, drive=CubicStep(stroke=0.1), drives=said, duration=5.0)
-    assert scenario.drive_of("ram") == said["ram"]
-
-
-def test_the_ram_follows_the_drive_that_is_the_legs_own(shield: TwoLegShield) -> None:
-    leg = CubicStep(stroke=0.2)
-    one = Scenario(machine=shield, drives={"leg": leg}, duration=5.0)
-    other = Scenario(machine=shield, drive=leg, duration=5.0)
-    assert one.drive_of("ram") == other.drive_of("ram")
 
 
 @pytest.mark.parametrize(

@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-import json
 from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
-from support_exudyn import ClearancePin, OilColumn, Scenario, SolverSettings, bore_area, ravn_slider_crank
+from support_exudyn import ClearancePin, OilColumn, Scenario, SolverSettings, bore_area
 from support_exudyn.mechanics.body_motion import BodyMotion
-from support_exudyn.mechanics.channels import EVERYTHING, ChannelDefinition, DataNeeds, chosen
+from support_exudyn.mechanics.channels import EVERYTHING, DataNeeds, chosen
 from support_exudyn.mechanics.observed_run import Trajectory
 from support_exudyn.scenario.recorded_channels import channels, needs
 from tests.cases.machine_cases import contact, support
-from user_forces import InputError, Value
+from user_forces import InputError
 
 SUPPORT = support()
 OIL = OilColumn(bore_area=bore_area(0.25, 2), oil_length=0.5, bulk_modulus=1.5e9)
@@ -38,10 +35,6 @@ def scenario(*asked: str, **changes: Any) -> Scenario:
 
 def names(one: Scenario) -> list[str]:
     return chosen(one.channel_definitions, one.channels)
-
-
-def test_an_audit_needs_everything() -> None:
-    assert needs(scenario("tip.*", solver=SolverSettings())) == EVERYTHING
 
 
 def test_all_are_asked_for_unless_said_otherwise() -> None:
@@ -69,23 +62,6 @@ def test_a_pattern_that_matches_nothing_is_refused(wrong: str) -> None:
         f"Scenario: channels = {wrong!r}: matches no channel; allowed: names of channels, or "
     )
     assert any(name in said for name in NAMES[1:])  # what is near, or the first of them
-
-
-def test_the_nearest_names_are_told() -> None:
-    with pytest.raises(InputError, match=r"among them .*pin\.rear_base\.force"):
-        scenario("pin.rear_bse.force")
-
-
-@pytest.mark.parametrize("wrong", ["tip.*", (1,), None], ids=repr)
-def test_something_else_than_names_is_refused(wrong: object) -> None:
-    with pytest.raises(InputError, match=r"Scenario\.channels"):
-        Scenario(machine=SUPPORT, duration=1.0, channels=wrong)
-
-
-@given(st.lists(st.sampled_from(NAMES), max_size=5))
-def test_they_come_back_from_json(asked: list[str]) -> None:
-    one = scenario(*asked)
-    assert Value.from_data(json.loads(json.dumps(one.to_data()))) == one
 
 
 P, V, A, J, C, O, I = (  # noqa: E741
@@ -152,11 +128,3 @@ def test_what_is_needed_is_enough(name: str) -> None:
         friction_loss=integral,
     )
     assert channels(one, run)[name].values.shape == (rows,)
-
-
-def test_of_cranks_and_guides() -> None:
-    known: dict[str, ChannelDefinition] = Scenario(
-        machine=ravn_slider_crank(), duration=1.0
-    ).channel_definitions
-    for name in ("crank.moment", "guide.force", "guide.moment"):
-        assert known[name].needs == DataNeeds.JOINTS

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from support_exudyn import ClearancePin
-from support_exudyn.mechanics.contact_places import RelativeMotion, journal_arm, series
+from support_exudyn.mechanics.contact_places import RelativeMotion, series
 from tests.cases.run_cases import paper_contact
 from user_forces import Ambrosio, FrictionLaw, Frictionless, friction_law
 from user_forces.contact import SlipHistory
@@ -76,10 +76,3 @@ def test_all_at_once_is_one_by_one(friction: FrictionLaw, rows: list[tuple[float
         stored = pin.contact.normal.elastic_energy(depth[n]) if depth[n] > 0.0 else 0.0
         assert found.stored[n] == pytest.approx(stored, rel=1e-9)
         assert found.impact_velocity[n] == (memory.impact_velocity if memory.in_contact else 0.0)
-
-
-def test_the_contact_point_lies_midway_in_the_overlap() -> None:
-    depth = np.array([0.0, 1e-4])
-    pin = ClearancePin(contact=BASE)
-    want = BASE.bearing.journal_radius - 0.5 * depth
-    np.testing.assert_allclose(journal_arm(pin.contact, depth), want, rtol=1e-14)

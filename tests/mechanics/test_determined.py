@@ -4,13 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import numpy as np
-import pytest
-
 from studies.common.paper_machine import clearance_joint, oil_columns
 from support_exudyn import CubicStep, Scenario, reference_support, simulate
-from support_exudyn.mechanics.constraints import matrix
-from support_exudyn.mechanics.reactions import Loads
 
 RIGID = Scenario(
     machine=reference_support(),
@@ -52,21 +47,6 @@ def test_four_rigid_actuators_under_a_rigid_canopy_do_too() -> None:
 
 def test_a_loose_pin_leaves_nothing_open() -> None:
     assert shares(WITH_CLEARANCE) == set()
-
-
-def test_what_two_hold_together_is_determined() -> None:
-    for name in ("front_column.force", "rear_column.force", "pin.front_base.force", "pin.front_shield.force"):
-        assert "do not determine" not in RIGID.channel_definitions[name].meaning
-
-
-@pytest.mark.parametrize("scenario", [RIGID, ON_OIL], ids=["rigid", "oil"])
-def test_other_shares_balance_as_well_and_change_only_what_is_said(scenario: Scenario) -> None:
-    loads = Loads(scenario.space, (), scenario.compliant_actuators)
-    held = matrix(loads.start, loads.held)[0]
-    assert loads.unbalanced.shape[1] > 0
-    # nothing is done to any body, by loads of the size of one
-    assert np.abs(loads.unbalanced.T @ held).max() < 1e-9
-    assert np.linalg.matrix_rank(held, tol=1e-6) == len(loads.held) - loads.unbalanced.shape[1]
 
 
 def test_numbers_leave_shares_out() -> None:

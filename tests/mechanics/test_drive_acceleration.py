@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from support_exudyn import CubicStep, Drive, Held, Reciprocating, Steady, TableDrive, UniformSpeed
-from support_exudyn.mechanics.drive_acceleration import accelerations, accelerations_of
+from support_exudyn.mechanics.drive_acceleration import accelerations
 
 
 def rate(drive: Drive, *times: float) -> list[float]:
@@ -48,12 +48,3 @@ def test_what_swings_is_accelerated_from_the_start_on() -> None:
     assert rate(drive, *times) == pytest.approx([0.1 * w * w * math.cos(w * t) for t in times], rel=1e-9)
     assert rate(Steady(rate=100.0), 0.0, 1.0) == pytest.approx([0.0, 0.0], abs=1e-7)
     assert rate(Held(), 0.0, 1.0) == [0.0, 0.0]
-
-
-def test_equal_drives_are_accelerated_alike() -> None:
-    time = np.linspace(0.0, 6.0, 13)
-    drives = [CubicStep(), Held(), CubicStep(), Reciprocating(period=2.0)]
-    found = accelerations_of(drives, time, 6.0)
-    for drive, one in zip(drives, found, strict=True):
-        np.testing.assert_array_equal(one, accelerations(drive, time, 6.0))
-    assert found[2] is found[0]

@@ -21,11 +21,10 @@ from support_exudyn import (
     Slide,
     SliderCrank,
 )
-from support_exudyn.formulations.exudyn.scene.engine_scene import INITIAL
 from support_exudyn.formulations.exudyn.scene.scene_builder import build
 from support_exudyn.mechanics.kinetics import Kinetics, kinetics_of
 from support_exudyn.model.linkage import GROUND, pinned
-from tests.cases.run_cases import PIN, Pair, paper_contact, slider_crank_contact, support
+from tests.cases.run_cases import Pair, slider_crank_contact
 from tests.often import often
 from user_forces.contact_state import HEAVIEST, InverseMass
 from user_forces.values.value import Vector2
@@ -112,18 +111,6 @@ def test_any_contact_of_two_free_bodies_feels_the_mass_of_the_rigid_body_formula
     assert got == pytest.approx(1.0 / inverse_mass, rel=1e-10)
 
 
-@sometimes
-@given(mass=masses, inertia=inertias, centre=points, direction=angles)
-def test_a_body_against_the_ground_feels_its_own_mass_and_inertia(
-    mass: float, inertia: float, centre: Vector2, direction: float
-) -> None:
-    body = Body(mass=mass, inertia=inertia, centre=centre)
-    system = kinetics(Linkage(bodies={"a": body}, pins={"pin": pinned(GROUND, "a", (0.0, 0.0))}), "pin")
-    expected = 1.0 / mass + cross(np.negative(centre), unit(direction)) ** 2 / inertia
-    # rounding; inverse effective masses in other directions are up to 200/kg, this one is 0.001/kg or more
-    assert pin_mass(system, np.zeros(3), "pin", direction) == pytest.approx(1.0 / expected, rel=1e-10)
-
-
 # --- the slider-crank ---
 
 
@@ -165,28 +152,6 @@ def test_slider_pin_feels_the_rod_about_the_crank_pin_and_the_slider(
     assert got == pytest.approx(1.0 / float(n @ expected @ n), rel=1e-9)
 
 
-@sometimes
-@given(machine=cranks, direction=angles)
-def test_crank_pin_feels_a_rod_guided_by_the_slider(machine: SliderCrank, direction: float) -> None:
-    # free are the angle of the rod and x of the slider; with both closed at the slider pin. Velocities of the
-    # rod's centre (dx - l/2 sin b db, l/2 cos b db) up to signs, of its end at the crank twice that arm
-    length, half = machine.rod_length, machine.rod_length / 2.0
-    fall = -math.asin(machine.crank_length * math.sin(machine.start_angle) / length)
-    s, c = math.sin(fall), math.cos(fall)
-    # centre and crank end are behind the slider pin, seen along the rod
-    centre = np.array([[half * s, 1.0], [-half * c, 0.0]])
-    end = np.array([[length * s, 1.0], [-length * c, 0.0]])
-    mass = machine.rod_mass * centre.T @ centre + np.diag([machine.rod_inertia, machine.slider_mass])
-    expected = end @ np.linalg.solve(mass, end.T)
-    got = inverse_mass(kinetics(machine.linkage(), "crank_pin"), np.zeros(9), "crank_pin")
-    # rounding of inverse effective masses up to 20/kg
-    assert got == pytest.approx(expected, abs=1e-11)
-    n = unit(direction)
-    assert pin_mass(kinetics(machine.linkage(), "crank_pin"), np.zeros(9), "crank_pin", direction) == (
-        pytest.approx(1.0 / float(n @ expected @ n), rel=1e-9)
-    )
-
-
 # --- what cannot move ---
 
 
@@ -204,24 +169,6 @@ def test_a_body_on_a_slide_cannot_be_pushed_across_it(mass: float, direction: fl
     assert pin_mass(system, np.zeros(3), "pin", direction) == pytest.approx(mass, rel=1e-12)
     # across it, a mass beyond all others; rounding of a mobility of 10/kg or less
     assert 1e13 < pin_mass(system, np.zeros(3), "pin", direction + math.pi / 2) <= HEAVIEST * (1.0 + 1e-9)
-
-
-@sometimes
-@given(machine=cranks, direction=angles)
-def test_a_pin_of_a_driven_crank_that_nothing_lets_move_is_immovable(
-    machine: SliderCrank, direction: float
-) -> None:
-    # a bore on the ground about the end of a crank whose pivot is closed and whose angle is driven
-    linkage = machine.linkage()
-    end = linkage.pins["crank_pin"].first_point
-    held = Linkage(
-        bodies={"crank": linkage.bodies["crank"]},
-        pins={"main": linkage.pins["main"], "wall": pinned(GROUND, "crank", end)},
-        cranks=linkage.cranks,
-    )
-    mass = pin_mass(kinetics(held, "wall"), np.zeros(3), "wall", direction)
-    # rounding of the inverse effective masses of a free crank, up to 1e3/kg
-    assert 1e11 < mass <= HEAVIEST * (1.0 + 1e-9)
 
 
 # --- Jacobians ---
@@ -342,13 +289,6 @@ def test_a_scene_gives_the_mobility_in_the_axes_of_the_bore(bore: str, start_ang
         expected = across_rod**2 / inertia + n[0] ** 2 / machine.slider_mass
         # rounding
         assert got.mass(*(1e-3 * unit(direction)).tolist()) == pytest.approx(1.0 / expected, rel=1e-9)
-
-
-@pytest.mark.parametrize("bore", ["first", "second"])
-def test_a_pin_begins_with_the_mobility_of_the_start(bore: str) -> None:
-    pin = ClearancePin(contact=paper_contact(1.5, 0.0), bore=bore)
-    scene = build(support(pins={PIN: pin}))
-    assert scene.clearance_joints[PIN]._inverse_mass == scene.inverse_mass(PIN, INITIAL)
 
 
 def test_other_loose_pins_transmit_no_impulse() -> None:

@@ -15,16 +15,13 @@ from support_exudyn.mechanics.pin_stability import (
     critical_friction,
     painleve_friction,
     sliding_pin,
-    with_friction,
 )
 from user_forces import (
     Ambrosio,
-    BrownMcPhee,
     Frictionless,
     Hertz,
     JournalBearing,
     JournalContact,
-    KelvinVoigt,
     LankaraniNikravesh,
     PinInBore,
 )
@@ -79,16 +76,6 @@ def test_a_mass_on_a_spring_swings_as_one() -> None:
     assert found.place == pytest.approx(np.array([0.0, -(BEARING.clearance + depth)]), rel=1e-9, abs=1e-12)
     assert found.stable
     assert abs(found.growth) < 1e-6
-
-
-def test_a_dashpot_damps_as_one() -> None:
-    stiffness, damping, mass = 5e8, 1e5, 2500.0
-    law = KelvinVoigt(stiffness=stiffness, damping=damping)
-    found = sliding_pin(journal(np.eye(2) / mass, np.array([LOAD, 0.0])), contact(0.0, law))
-    normal = found.roots[np.abs(found.roots.imag).argmax()]
-    half = 0.5 * damping / mass
-    assert abs(normal.imag) == pytest.approx(math.sqrt(stiffness / mass - half**2), rel=1e-6)
-    assert normal.real == pytest.approx(-half, rel=1e-6)
 
 
 INVERSE_MASS = np.array([[3.3e-3, 1.5e-3], [1.5e-3, 0.9e-3]])
@@ -198,18 +185,6 @@ def test_what_is_seen_in_a_mirror_shakes_alike() -> None:
     assert other.place == pytest.approx(one.place * np.array([-1.0, 1.0]), rel=1e-8)
 
 
-def test_twice_the_mass_on_twice_the_stiffness_shakes_alike() -> None:
-    given = LoadedJournal(
-        INVERSE_MASS, np.array([0.6, 0.8]) * LOAD, np.array([1.8, -0.6]), np.array([0.3, 0.4]), -0.3, 0.1
-    )
-    heavy = replace(given, inverse_mass=0.5 * given.inverse_mass, load=2.0 * given.load)
-    one, other = (
-        sliding_pin(each, contact(0.3, LankaraniNikravesh(stiffness=factor * STIFFNESS, restitution=0.9)))
-        for each, factor in ((given, 1.0), (heavy, 2.0))
-    )
-    assert sorted_roots(other) == pytest.approx(sorted_roots(one), rel=1e-6)
-
-
 def test_friction_that_rises_with_the_slip_damps() -> None:
     """Inside the ramp of Ambrosio's law it is a dashpot of mu N over the ramp's width."""
     ramp = Ambrosio(sliding_coefficient=0.2, static_speed=0.0, dynamic_speed=0.1)
@@ -220,15 +195,6 @@ def test_friction_that_rises_with_the_slip_damps() -> None:
     assert t @ found.damping @ t == pytest.approx(0.2 * found.normal_force / 0.1, rel=1e-6)
     assert found.stable
     assert found.roots.real.min() == pytest.approx(-0.5 * 0.2 * found.normal_force / 0.1 / 2500.0, rel=1e-3)
-
-
-def test_another_coefficient_keeps_the_rest_of_the_law() -> None:
-    law = BrownMcPhee(static_coefficient=0.3, sliding_coefficient=0.2, transition_speed=0.02)
-    found = with_friction(replace(contact(0.0), friction=law), 0.1).friction
-    assert isinstance(found, BrownMcPhee)
-    assert (found.sliding_coefficient, found.transition_speed) == (0.1, 0.02)
-    assert found.static_coefficient == pytest.approx(0.15)
-    assert with_friction(contact(0.0), 0.1).friction == Ambrosio(sliding_coefficient=0.1)
 
 
 def test_without_a_load_nothing_slides() -> None:

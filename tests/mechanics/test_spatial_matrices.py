@@ -8,11 +8,9 @@ import numpy as np
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
-from scipy.integrate import quad
 from scipy.spatial.transform import Rotation
 
-from support_exudyn import ClearancePin, Scenario, reference_support
-from support_exudyn.formulations.exudyn.scene.sections import half_way, lobatto, section_motion, sections
+from support_exudyn.formulations.exudyn.scene.sections import lobatto, section_motion
 from support_exudyn.mechanics.body_motion import (
     UNTURNED,
     SpatialMotion,
@@ -24,7 +22,6 @@ from support_exudyn.mechanics.constraints import (
     bearing_row,
     constraints_in_space,
     frame_of,
-    independent,
     matrix,
 )
 from support_exudyn.mechanics.kinetics import Instant, gyroscopic, lightness_of, tensor
@@ -37,8 +34,7 @@ from support_exudyn.model.spatial_linkage import (
     SpatialLinkage,
 )
 from tests.cases.law_cases import NORMAL_LAWS
-from tests.cases.machine_cases import contact
-from user_forces import LankaraniNikravesh, LoadError, NormalLaw
+from user_forces import LoadError, NormalLaw
 from user_forces.connector.attachment import Attachment
 from user_forces.normal.part import PartOf
 
@@ -190,23 +186,6 @@ def test_tilt_rows_are_the_rates_of_one_axis_in_the_other(
     np.testing.assert_allclose(matrix(motion, tilts)[0] @ velocity, expected, atol=1e-12)
 
 
-@given(linkage=machines(), state=states(), seed=st.integers(0, 1000))
-def test_independent_rows_are_as_many_as_the_rank(
-    linkage: SpatialLinkage, state: tuple[np.ndarray, np.ndarray], seed: int
-) -> None:
-    motion = at(linkage, state[0])
-    rows = constraints_in_space(linkage, (), ("k",))
-    # all of them twice, in any order: half say nothing new
-    order = np.random.default_rng(seed).permutation(2 * len(rows))
-    doubled = [(rows + rows)[n] for n in order]
-    kept = [doubled[n] for n in independent(matrix(motion, doubled)[0])]
-    values = matrix(motion, rows)[0]
-    singular = np.linalg.svd(values / np.linalg.norm(values, axis=1)[:, None], compute_uv=False)
-    assume(singular.min() > 1e-4)  # else it is a matter of taste
-    assert len(kept) == len(rows)
-    assert set(kept) == set(rows)
-
-
 @given(linkage=machines(), state=states(), forces=st.lists(unit, min_size=12, max_size=12))
 def test_reactions_are_the_smallest_that_do_it(
     linkage: SpatialLinkage, state: tuple[np.ndarray, np.ndarray], forces: list[float]
@@ -280,14 +259,6 @@ def test_lobatto_is_exact_for_polynomials(number: int) -> None:
         assert weights @ places**degree == pytest.approx(mean, abs=1e-14 if number < 20 else 1e-8)
 
 
-def test_sections_share_the_bearing() -> None:
-    place = {"first": "ground", "second": "a", "first_point": (0.0, 0.0, 0.0), "second_point": (0.0, 0.0, 0.0)}
-    whole = sections(Bearing(length=0.4, share=0.5, pin="p", **place), 5)
-    assert sum(s.share for s in whole) == pytest.approx(0.5, rel=1e-14)
-    assert (whole[0].place, whole[-1].place) == (-0.2, 0.2)
-    assert sections(Bearing(pin="p", share=0.5, **place), 5) == [(0.0, 0.5)]
-
-
 @given(depth=st.floats(1e-7, 1e-4), rate=st.floats(-0.05, 0.05), number=st.integers(2, 9))
 @pytest.mark.parametrize("law", NORMAL_LAWS, ids=lambda law: type(law).__name__)
 def test_sections_at_equal_depth_add_up_to_the_law(
@@ -305,24 +276,6 @@ def test_sections_at_equal_depth_add_up_to_the_law(
     assert sum(part.elastic_force(depth) for part in parts) == pytest.approx(whole[1], rel=1e-12)
     assert sum(part.elastic_energy(depth) for part in parts) == pytest.approx(whole[2], rel=1e-12)
     assert {part.largest_depth for part in parts} == {law.largest_depth}
-
-
-@given(share=st.floats(0.01, 1.0), depth=st.floats(1e-6, 1e-3))
-def test_energy_of_a_part_is_the_integral_of_its_elastic_force(share: float, depth: float) -> None:
-    part = PartOf(law=LankaraniNikravesh(stiffness=1e9, restitution=0.9), share=share)
-    # quad's tolerance
-    assert part.elastic_energy(depth) == pytest.approx(
-        quad(part.elastic_force, 0.0, depth, epsabs=0.0, epsrel=1e-10)[0], rel=1e-8
-    )
-
-
-@given(p=parameters(), tilt=vectors)
-def test_axes_half_way_are_turned_by_half_the_angle(p: np.ndarray, tilt: tuple[float, float, float]) -> None:
-    axes = rotation(p)
-    about = 0.5 * (tilt[0] * axes[:, 0] + tilt[1] * axes[:, 1])
-    along = Rotation.from_rotvec(about).as_matrix() @ axes[:, 2]
-    expected = Rotation.from_rotvec(0.5 * about).as_matrix() @ axes
-    np.testing.assert_allclose(half_way(axes[None], along[None])[0], expected, atol=1e-13)  # rounding
 
 
 @given(
@@ -357,34 +310,3 @@ def test_a_section_has_the_distance_and_the_rate_of_both_its_centres(
     assert math.hypot(x, y) == pytest.approx(np.linalg.norm(apart), rel=1e-11)
     # rounding, of a division by 1e-3
     assert (x * vx + y * vy) == pytest.approx(apart @ rates, abs=1e-10)
-
-
-# --- channels ---
-
-
-def test_every_channel_in_space_says_what_it_is() -> None:
-    scenario = Scenario(
-        machine=reference_support(),
-        dimensions=3,
-        duration=1.0,
-        pins={name: ClearancePin(contact=contact()) for name in ("rear_base", "front_shield")},
-    )
-    found = scenario.channel_definitions
-    units = {"m", "s", "rad", "N", "J", "m/s", "rad/s", "rad/s^2", "N m"}
-    for name, definition in found.items():
-        assert definition.unit in units, name
-        assert definition.meaning, name
-    assert {
-        "tip_left.z",
-        "canopy.roll",
-        "front_link_left.yaw",
-        "front_column.force",
-        "pin.front_shield.force",
-    } <= set(found)
-    assert {
-        f"pin.front_shield_{side}.{edge}_depth" for side in ("left", "right") for edge in ("left", "right")
-    } <= set(found)
-    assert "pin.rear_shield.depth" not in found
-    for name in Scenario(machine=reference_support(), duration=1.0).channel_definitions:
-        head, _, tail = name.partition(".")
-        assert name in found or f"{head}_left.{tail}" in found, name

@@ -67,19 +67,6 @@ def test_the_result_has_the_settings_that_were_chosen(drop: Result) -> None:
     assert drop.met
 
 
-@pytest.mark.parametrize("formulation", ["compiled", "exudyn"])
-def test_the_settings_that_were_chosen_give_the_same_run_again(formulation: str) -> None:
-    result = simulate(replace(DROP, formulation=formulation, duration=0.03), accuracy="draft")
-    assert result.scenario.formulation == formulation
-    again = simulate(result.scenario)
-    assert list(again.channels) == list(result.channels)
-    for name in result.channels:
-        np.testing.assert_array_equal(again[name], result[name])  # same settings, same versions: to the bit
-    assert again.onsets == result.onsets
-    assert again.largest_force == result.largest_force
-    assert (again.goal, again.coarser) == (None, None)
-
-
 @pytest.mark.parametrize("scene", ["compiled", "ideal", "exudyn"])
 def test_progress_only_rises_and_ends_at_one(scene: str) -> None:
     short = replace(DROP, duration=0.03)
@@ -195,9 +182,6 @@ def test_sections_become_more_only_as_long_as_they_tell_anything(
     assert sections[:4] == [5, 9, 17, 17]
     assert made[3].step == made[0].step
     assert sections[4:] == ([33, 64] if tilted else [5, 5])
-
-
-# --- failures ---
 
 
 # --- are the estimated errors the true ones? ---

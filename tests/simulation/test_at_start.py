@@ -48,12 +48,6 @@ def test_an_interruption_while_libraries_are_imported_is_a_line(tmp_path: Path, 
     assert done.stdout == ""
 
 
-def test_other_programs_keep_their_interruptions() -> None:
-    check = "assert signal.getsignal(signal.SIGINT) is signal.default_int_handler"
-    lines = ["import signal", "import support_exudyn", check, "import studies.common.study", check]
-    subprocess.run([sys.executable, "-c", "\n".join(lines)], cwd=ROOT, env=environment(), check=True)
-
-
 @pytest.mark.parametrize(
     ("encoding", "shown"),
     [

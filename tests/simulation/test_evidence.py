@@ -5,7 +5,6 @@ from __future__ import annotations
 import itertools
 import math
 
-import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
@@ -37,23 +36,6 @@ def possible(m: Measured) -> tuple[float, float]:
 def ends(one: Measured, other: Measured) -> list[tuple[float, float]]:
     """The corners of what two numbers can be."""
     return list(itertools.product(possible(one), possible(other)))
-
-
-# --- arithmetic ---
-
-
-@given(one=st.builds(Measured, signed, st.just(0.0)), other=signed, shares=st.tuples(*2 * [st.floats(0, 1e-4)]))
-def test_the_error_of_a_quotient_is_right_to_first_order(
-    one: Measured, other: float, shares: tuple[float, float]
-) -> None:
-    top = Measured(one.value, shares[0] * abs(one.value))
-    bottom = Measured(other, shares[1] * abs(other))
-    ratio = top.over(bottom)
-    assert ratio.value == top.value / bottom.value
-    farthest = max(abs(a / b - ratio.value) for a, b in ends(top, bottom))
-    # what is left out is of second order: a share of the error as small as the errors' shares; and rounding
-    rounding = 4e-16 * abs(ratio.value)
-    assert ratio.error == pytest.approx(farthest, rel=3e-4, abs=rounding)
 
 
 # --- comparisons ---

@@ -19,8 +19,7 @@ from support_exudyn import (
     SolverSettings,
     simulate,
 )
-from tests.cases.run_cases import Pair, loose_support, paper_contact
-from tests.formulations.test_momentum import ONE, TWO
+from tests.cases.run_cases import loose_support, paper_contact
 from user_forces import LankaraniNikravesh, friction_law
 from user_forces.lawful import UNLAWFUL
 
@@ -81,12 +80,6 @@ def test_a_failure_says_when_and_in_what_state(kind: str, words: str) -> None:
     assert (UNLAWFUL in str(caught.value)) == (kind == "nan")
 
 
-def test_a_failure_can_be_had_as_a_value() -> None:
-    failure = simulate(breaking("overflow"), throw=False)
-    assert isinstance(failure, Failure)
-    assert "force out of range" in failure.reason
-
-
 def test_a_contact_that_is_overloaded_says_what_the_law_takes() -> None:
     good = paper_contact(1.5, 0.0)
     thin = Thin(stiffness=good.normal.stiffness, restitution=0.9)
@@ -138,12 +131,3 @@ def test_a_run_is_given_up_after_so_many_steps(case: str) -> None:
     assert "solver.most_steps" in failure.advice
     assert 0.0 < failure.time < scenario.duration
     assert isinstance(limited(scenario, 2 * most), Result)
-
-
-def test_steps_that_the_engine_makes_by_itself_are_limited_too() -> None:
-    machine = Pair(one=ONE, two=TWO, one_point=(0.2, 0.25), two_point=(0.2, 0.25))
-    swinging = Scenario(machine=machine, duration=0.1, step=1e-3)
-    failure = limited(swinging, 20)
-    assert isinstance(failure, Failure)
-    assert failure.reason == "more than 20 steps"
-    assert isinstance(limited(swinging, 200), Result)

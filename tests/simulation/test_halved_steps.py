@@ -28,7 +28,7 @@ from support_exudyn.simulation.estimate import disagreement
 from support_exudyn.simulation.halved_steps import LARGEST_ERROR, MOST_RUNS
 from support_exudyn.simulation.reported_numbers import measures
 from support_exudyn.simulation.single_run import single_run
-from tests.cases.run_cases import FORCE, PIN, loose_support, support
+from tests.cases.run_cases import FORCE, PIN, loose_support
 from tests.formulations.test_formulations import SCENES
 from user_forces import InputError
 
@@ -57,25 +57,6 @@ def test_the_result_is_that_of_a_quarter_of_the_steps(fall: Result) -> None:
     assert not fall.met  # nothing was asked for
 
 
-def test_the_coarser_ones_are_those_at_half_the_steps_and_at_all_of_them(fall: Result) -> None:
-    half = fall.coarser
-    assert half is not None
-    assert half.scenario == FALL.refined()
-    assert half.coarser is not None
-    assert half.coarser.scenario == FALL
-    assert half.coarser.coarser is None
-    np.testing.assert_array_equal(half.coarser[FORCE], simulate(FALL)[FORCE])
-    assert fall.wall_time > half.wall_time > 0.0
-
-
-def test_channels_that_are_asked_for_narrowly_come_with_what_errors_need(fall: Result) -> None:
-    narrow = simulate(replace(FALL, channels=("tip.x", f"pin.{PIN}.depth")), errors=True)
-    assert {"tip.x", f"pin.{PIN}.depth", FORCE} <= set(narrow.channels)
-    assert "energy.kinetic" not in narrow.channels
-    assert narrow.worst_error == fall.worst_error
-    assert narrow.numbers() == fall.numbers()
-
-
 # --- whether errors are true ---
 
 
@@ -96,11 +77,6 @@ def test_errors_cover_the_true_ones(fall: Result, tight: Result) -> None:
     assert np.mean(covered) >= 0.95
     # and not because anything would do; measured in the median: 5
     assert np.median(overstated) < 20.0
-
-
-def test_the_worst_error_covers_the_distance_from_the_true_run(fall: Result, tight: Result) -> None:
-    # measured: 1.2e-3, and 1.1e-4 away
-    assert 1e-5 < disagreement(fall, tight) < fall.worst_error < 1e-2
 
 
 @pytest.mark.parametrize("scene", [SCENES["clearance support on oil"], FALL], ids=["oil", "fall"])
@@ -158,12 +134,6 @@ def test_what_newtons_method_leaves_is_among_the_errors() -> None:
         true = abs(impact.value - exact.onsets[PIN][0].speed)
         assert true > 1e-9 * impact.value
         assert true <= impact.error < 1e-6 * impact.value
-
-
-def test_a_machine_at_rest_is_certain() -> None:
-    # a path that is nothing but rounding, 1e-13 m, would else be uncertain by ten times its extent. Forces
-    # scatter by 1e-6 of themselves at these steps, against a spread of 1e-3; measured: 2.9e-3
-    assert simulate(support(duration=0.1, drive=Held()), errors=True).worst_error < 1e-2
 
 
 # --- what is refused ---

@@ -17,12 +17,11 @@ from support_exudyn import (
     OilColumn,
     Result,
     Scenario,
-    SolverSettings,
     simulate,
 )
 from support_exudyn.formulations.exudyn.scene.engine_scene import EngineScene
 from support_exudyn.formulations.exudyn.solver.solver import SolverRun
-from tests.cases.run_cases import PIN, loose_slider_crank, loose_support, paper_contact
+from tests.cases.run_cases import PIN, loose_support, paper_contact
 from tests.hostile import Interruption, posix_only
 from user_forces import LankaraniNikravesh, value
 
@@ -79,22 +78,6 @@ def test_an_interruption_comes_out_at_once_and_leaves_nothing_behind(
     assert exudyn.config.printToConsole
     assert gc.isenabled()
     assert len(released) == (scenario.formulation != "compiled")  # which has no model of the engine
-    assert same(simulate(scenario), before)
-
-
-@posix_only
-def test_a_compiled_run_is_interrupted_between_its_pauses() -> None:
-    # it strikes for ever: some 200 000 steps a second of the machine's, that is a second of work
-    scenario = loose_slider_crank(1e-3, formulation="compiled", solver=SolverSettings(tolerance=1e-8))
-    before = simulate(scenario)
-    told: list[float] = []
-    with pytest.raises(KeyboardInterrupt), Interruption() as sent:
-        simulate(
-            replace(scenario, duration=20.0, record_period=0.1),
-            progress=lambda share: (told.append(share), sent.now()),
-        )
-    assert 0.0 < sent.work < PROMPT
-    assert told == sorted(told)
     assert same(simulate(scenario), before)
 
 

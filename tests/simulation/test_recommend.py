@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import pytest
 
-from support_exudyn import Estimate, Recommendation, Scenario, recommend, reference_support
+from support_exudyn import Estimate, Scenario, recommend, reference_support
 from support_exudyn.simulation.evidence.table import EvidenceTable, Tried, committed, fields_of
 from support_exudyn.simulation.recommend import QUESTIONS, STROKE, answers_alike
 
@@ -37,14 +35,6 @@ def test_the_cheapest_within_what_is_allowed_is_taken() -> None:
     assert "3 of 4" in advice.reason
 
 
-def test_what_the_errors_may_hide_is_not_let_pass() -> None:
-    # 5 N apart, 10 N are allowed; with an error of 6 N nobody knows
-    unsure = tried("unsure", 1.0, 1005.0, error=6.0)
-    assert recommend("mean force", table(FULL, unsure)).scene == "fullest"
-    sure = tried("sure", 2.0, 1005.0, error=4.0)
-    assert recommend("mean force", table(FULL, unsure, sure)).scene == "sure"
-
-
 @pytest.mark.parametrize("question", QUESTIONS)
 def test_the_advice_follows_from_the_table_by_the_rule(question: str) -> None:
     advice, asked, known = recommend(question), QUESTIONS[question], committed()
@@ -71,12 +61,3 @@ def test_the_advice_follows_from_the_table_by_the_rule(question: str) -> None:
     assert advised.elements == min(scene.elements for scene in near)
     assert all(item.passes for item in advice.evidence)
     assert advice.question == question
-
-
-@pytest.mark.parametrize("question", QUESTIONS)
-def test_what_is_recommended_can_be_set(question: str) -> None:
-    advice: Recommendation = recommend(question)
-    scenario = advice.apply(PLAIN)
-    assert scenario == replace(PLAIN, **advice.fields)
-    assert fields_of(scenario) == dict(advice.fields)
-    assert scenario.dimensions == (3 if question == "unequal columns" else 2)

@@ -15,7 +15,6 @@ from support_exudyn import (
     ClearancePin,
     Failure,
     Held,
-    OilColumn,
     Scenario,
     SimulationError,
     SolverSettings,
@@ -171,17 +170,6 @@ def test_a_rigid_actuator_of_another_length_is_refused(outcome: Outcome, found: 
         assert (failure is not None) == wrong
         if failure is not None:
             assert "what is joined is 0.15 mm apart" in failure.reason
-
-
-def test_a_loose_pin_and_columns_of_oil_may_come_apart(outcome: Outcome, found: Found) -> None:
-    oil = OilColumn(bore_area=0.1, oil_length=0.5, bulk_modulus=1.5e9)
-    names = [name for name, actuator in SCENARIO.linkage.actuators.items() if actuator.driven]
-    compliant_actuators = replace(SCENARIO, actuators=dict.fromkeys(names, oil), drive=Steady(rate=0.1))
-    assert result_checks(compliant_actuators, outcome, found) is None
-    with_gap = joints_apart(replace(SCENARIO, pins={}), outcome)  # as if the clearance pin were ideal
-    assert with_gap is not None
-    assert with_gap.max() > 1e-3  # it falls through its clearance of 1.5 mm
-    assert result_checks(SCENARIO, outcome, found) is None
 
 
 # --- in a run ---

@@ -66,23 +66,6 @@ def test_the_saved_scenario_gives_the_same_run_again(result: Result, tmp_path: P
         np.testing.assert_array_equal(again[name], result[name])  # same machine, same versions: to the bit
 
 
-def test_provenance_names_versions_and_settings(result: Result) -> None:
-    made_by = {"python", "exudyn", "numpy", "scipy", "numba", "support-exudyn", "platform"}
-    assert made_by | {"made_at"} <= set(result.provenance)
-    data = result.scenario.to_data()
-    assert data["step"] == result.scenario.step
-    assert data["solver"]["spectral_radius"] == 0.5
-
-
-@pytest.mark.parametrize(
-    ("name", "command"), [("a.csv", "plot RUN"), ("t.parquet", "`chart`"), ("a.toml", "`run`")]
-)
-def test_what_is_no_run_is_told_with_the_command_that_takes_it(tmp_path: Path, name: str, command: str) -> None:
-    (tmp_path / name).write_text("time_s,a\n", encoding="utf-8")
-    with pytest.raises(InputError, match=f"no run: .*{command}"):
-        Result.load(tmp_path / name)
-
-
 # --- runs by which errors are estimated ---
 
 
@@ -162,17 +145,6 @@ def test_a_file_that_is_cut_off_or_has_a_changed_byte_is_refused(result: Result,
         path.write_bytes(damaged)
         with pytest.raises(InputError, match=r"run\.h5: not a result file of this program, or damaged \("):
             Result.load(path)
-
-
-@pytest.mark.parametrize("group", ["/", "coarser"])
-def test_a_file_with_a_value_that_does_not_fit_says_which(
-    estimated: Result, tmp_path: Path, group: str
-) -> None:
-    path = estimated.save(tmp_path / "run.h5")
-    with changed(path) as file:
-        file[group].attrs["scenario"] = '{"type": "Scenario", "duration": -1.0}'
-    with pytest.raises(InputError, match=r"run\.h5: Scenario\."):
-        Result.load(path)
 
 
 @pytest.mark.parametrize("group", ["coarser", "coarser/coarser"])

@@ -72,11 +72,6 @@ def test_along_the_load_a_contact_vibrates_as_its_law_is_stiff_and_across_it_lik
     assert across.time == pytest.approx(math.sqrt(300.0 * (GAP + free.load / stiffness) / free.load), rel=1e-3)
 
 
-def test_a_pin_that_carries_nothing_does_not_ring() -> None:
-    assert ringing_step(replace(narrow(), gravity=(0.0, 0.0))) == math.inf
-    assert ringing_step(replace(narrow(), pins={})) == math.inf
-
-
 def test_the_last_of_three_runs_leaves_what_rings() -> None:
     scene = narrow()
     contacts = [found for contact in loaded_contacts(scene) for found in vibrations(contact)]

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from support_exudyn import Held, Result, simulate
+from support_exudyn import Held, Result
 from tests import synthetic
 from tests.cases.run_cases import FORCE, SLIDER_PIN, loose_slider_crank, support
 from tests.compiled_runs import simulate_compiled, simulate_on_exudyn
@@ -32,13 +32,6 @@ def three(*forces: np.ndarray) -> Result:
         found = replace(synthetic.result(scenario, TIME, {FORCE: (force, "N")}), coarser=found)
     assert found is not None
     return found
-
-
-def test_the_time_of_the_largest_is_that_of_its_record() -> None:
-    when = three(*(bumps(second) for second in (1.0, 1.01, 1.011))).numbers()[f"{FORCE}.largest_time"]
-    assert when.unit == "s"
-    assert when.value == pytest.approx(0.2)  # where the force pulls with 2 N
-    assert PERIOD <= when.error < 2.0 * PERIOD
 
 
 def test_where_another_time_could_be_meant_the_error_reaches_there() -> None:
@@ -67,14 +60,3 @@ def test_the_largest_force_at_any_step_is_there_at_its_time_and_not_before(
     assert after.largest_force_time[SLIDER_PIN] == pytest.approx(when, abs=2e-6)
     again = Result.load(found.save(tmp_path / "run.h5"))
     assert again.largest_force_time == found.largest_force_time
-
-
-def test_its_time_is_reported_beside_it_with_an_error() -> None:
-    scenario = replace(loose_slider_crank(DURATION, formulation="compiled"), record_period=2e-5)
-    result = simulate(scenario, errors=True)
-    name = f"pin.{SLIDER_PIN}.largest_force_time"
-    numbers = result.numbers()
-    assert list(numbers)[list(numbers).index(name) - 1] == f"pin.{SLIDER_PIN}.largest_force"
-    assert numbers[name].value == result.largest_force_time[SLIDER_PIN]
-    finer = simulate_compiled(scenario, 1e-10)
-    assert abs(numbers[name].value - finer.largest_force_time[SLIDER_PIN]) <= numbers[name].error

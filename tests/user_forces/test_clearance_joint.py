@@ -239,15 +239,6 @@ def test_fixed_steps_approach_the_located_run() -> None:
     assert (off[1] < 0.3 * off[0]).all()
 
 
-def test_the_stock_solver_agrees_with_the_located_run() -> None:
-    runs = []
-    for solve in (solve_located, lambda mbs, given: mbs.SolveDynamic(given)):
-        mbs, joint = falling(impact_steps=512)
-        solve(mbs, settings(0.08, 1e-4))
-        runs.append([(onset.time, onset.speed) for onset in joint.impacts])
-    assert np.array(runs[0]) == pytest.approx(np.array(runs[1]), rel=1e-4)
-
-
 def test_a_journal_that_is_pressed_at_the_start_makes_no_impact() -> None:
     forces = []
     for solve in (solve_located, lambda mbs, given: mbs.SolveDynamic(given)):

@@ -215,15 +215,6 @@ def test_range_of_pereira_and_what_it_delivers() -> None:
     assert law.delivered_restitution == pytest.approx(0.913, abs=5e-4)
 
 
-@pytest.mark.parametrize("mm", [0.35, 0.5, 1.0, 1.5, 2.0])
-@pytest.mark.parametrize("share", [1e-3, 1e-2, 1e-1])
-def test_pereira_fits_johnson_as_its_docstring_says(mm: float, share: float) -> None:
-    law = gap(mm)
-    model = cylinder_law(Johnson, bearing=law.bearing)
-    depth = share * law.bearing.clearance
-    assert law.elastic_force(depth) == pytest.approx(model.elastic_force(depth), rel=0.12)
-
-
 @logarithmic
 @given(share=st.floats(-250.0, -0.05).map(lambda power: 10.0**power))
 def test_load_at_a_depth_is_the_branch_of_lambert(kind: type[CylinderLaw], share: float) -> None:

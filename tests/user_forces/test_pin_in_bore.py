@@ -74,11 +74,6 @@ def test_its_damping_can_be_that_of_another_law() -> None:
         law(damping="Hertz")
 
 
-def test_pin_and_link_add_their_share_of_the_depth() -> None:
-    stiff, soft = law(backing=None), law(backing=3e9)
-    assert soft.resting_depth(51.4e3) - stiff.resting_depth(51.4e3) == pytest.approx(51.4e3 / 3e9, rel=1e-4)
-
-
 # --- what pin and link give ---
 
 

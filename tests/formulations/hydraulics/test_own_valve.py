@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import Path
 from typing import ClassVar
 
 import numpy as np
@@ -18,13 +17,9 @@ from support_exudyn import (
     Scenario,
     SolverSettings,
     TrappedAir,
-    channels,
-    reference_support,
     simulate,
     value,
 )
-from support_exudyn.documentation.keys import keys_page
-from support_exudyn.files.scenarios.scenario_file import read_scenario, save_scenario, scenario_schema
 from support_exudyn.model.hydraulics.valves import NO_GAP, Room
 from tests.formulations.hydraulics.leg_cases import COLUMN, LENGTH, MASS, scene
 from user_forces import InputError
@@ -171,18 +166,6 @@ def test_a_settled_leg_has_one_pressure_in_all_rooms(formulation: str) -> None:
         assert result[f"leg0.{name}"][0] == pytest.approx(LOAD, rel=1e-6), name
     rise = brentq(lambda extension: pressure(oil, extension) - LOAD, -0.1, 0.1)
     assert result["leg0.length"][0] - LENGTH == pytest.approx(rise, rel=1e-6)
-
-
-def test_its_channels_and_keys_are_on_the_pages_and_in_files(tmp_path: Path) -> None:
-    table = channels(SCENE)
-    assert table["leg0.limiter.flow"] == ("m^3/s", "from piston to tank")
-    assert table["leg0.limiter.spool"] == ("Pa", "drop that its spool has followed")
-    assert table["leg0.store.pressure"].unit == "Pa"
-    page = keys_page("Keys", scenario_schema())
-    assert "## FlowLimiter\n" in page
-    assert "## GasStore\n" in page
-    scenario = replace(SCENE, machine=reference_support(), actuators={"front_column": SCENE.actuators["leg0"]})
-    assert read_scenario(save_scenario(scenario, tmp_path / "own.toml")) == scenario
 
 
 @value
