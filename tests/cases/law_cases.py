@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from typing import Any
+from collections.abc import Callable
 
 import numpy as np
-import pytest
 from scipy.integrate import DOP853
 from scipy.optimize import brentq
 
@@ -115,12 +113,6 @@ STATELESS_FRICTION: tuple[FrictionLaw, ...] = (
 )
 LUGRE = LuGre(static_coefficient=0.3, sliding_coefficient=0.2, viscosity=0.01)
 FRICTION_LAWS: tuple[FrictionLaw, ...] = (*STATELESS_FRICTION, LUGRE)
-
-
-def one_of_a_formula(laws: Iterable[NormalLaw]) -> list[Any]:
-    """The laws as parameters of a test; all but one of the same formula are slow."""
-    alike = {*APPROXIMATIONS, *LOGARITHMIC_LAWS} - {Flores, Johnson}
-    return [pytest.param(law, marks=[pytest.mark.slow] if type(law) in alike else []) for law in laws]
 
 
 def kind_of(item: object) -> str:

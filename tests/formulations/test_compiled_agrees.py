@@ -45,9 +45,9 @@ from tests.cases.law_cases import LUGRE, cylinder_law
 from tests.cases.run_cases import PIN, loose_slider_crank, loose_support, paper_contact, support
 from tests.formulations import test_guide_clearance as guides
 from tests.formulations import test_slots_and_gears as slots
+from tests.formulations.test_detailed_supports import SOFT
 from tests.formulations.test_falling_block import block, on_the_held
 from tests.formulations.test_springs import FREE
-from tests.formulations.test_tail_beam import SOFT
 from tests.linkage_cases import CrankRocker
 from tests.roof_cases import GAP, over_the_canopy, pressed_support
 from user_forces import Ambrosio, Johnson, KelvinVoigt, Stribeck, value

@@ -1,4 +1,4 @@
-"""Friction in joints without clearance, in both formulations, against Newton and Euler and closed forms."""
+"""Friction in joints without clearance, against Newton and Euler and closed forms."""
 
 from __future__ import annotations
 
@@ -15,12 +15,14 @@ from support_exudyn import (
     AppliedForce,
     Body,
     Crank,
+    CubicStep,
     Failure,
     Guide,
     IdealGuide,
     IdealPin,
     Linkage,
     Machine,
+    Pin,
     Result,
     Scenario,
     Slide,
@@ -29,14 +31,111 @@ from support_exudyn import (
     simulate,
 )
 from support_exudyn.model.linkage import pinned
+from support_exudyn.postprocessing.pytest_plugin import AssertClose, SimulateCached
+from tests.cases.run_cases import support
 from tests.formulations.test_slots_and_gears import SPEED as YOKE_SPEED
 from tests.formulations.test_slots_and_gears import ScotchYoke
-from user_forces import Ambrosio, FrictionLaw, LuGre, value
+from user_forces import Ambrosio, FrictionLaw, InputError, LuGre, value
 
-G, MU = 9.81, 0.1
-R, L, RADIUS, OMEGA = 0.05, 0.2, 0.01, 20.0 * math.pi  # slider-crank: lengths, pin [m], 600 rpm
+MASS, INERTIA, G, RADIUS, MU = 50.0, 2.0, 9.81, 0.05, 0.3
+RUBBING = IdealPin(friction=Ambrosio(sliding_coefficient=MU), radius=RADIUS)
+SUPPORT_PIN = IdealPin(friction=Ambrosio(sliding_coefficient=0.25), radius=0.0655)
+RISE = CubicStep(start=0.05, end=0.45, stroke=0.1)
+
+
+@value
+class Wheel(Machine):
+    """A heavy wheel that turns about its centre of mass."""
+
+    spin: float = 8.0
+    ground_first: bool = True
+
+    def linkage(self) -> Linkage:
+        ends = ("ground", "wheel") if self.ground_first else ("wheel", "ground")
+        body = Body(mass=MASS, inertia=INERTIA, centre=(0.3, 0.4), spin=self.spin)
+        return Linkage(bodies={"wheel": body}, pins={"pivot": pinned(*ends, (0.3, 0.4))})
+
+
+FORMULATIONS = pytest.mark.parametrize("formulation", ["exudyn", "compiled"])
+
+
+def spun_down(pin: IdealPin, formulation: str, tolerance: float, **changes: object) -> Result:
+    """A second of a wheel on a pin."""
+    solver = SolverSettings(tolerance=tolerance)
+    return simulate(
+        Scenario(
+            machine=Wheel(**changes), pins={"pivot": pin}, duration=1.0, formulation=formulation, solver=solver
+        )
+    )
+
+
+@FORMULATIONS
+@pytest.mark.parametrize(("spin", "ground_first"), [(8.0, True), (-8.0, True), (8.0, False)])
+def test_a_wheel_is_slowed_down_by_mu_n_r(spin: float, ground_first: bool, formulation: str) -> None:
+    result = spun_down(RUBBING, formulation, 1e-9, spin=spin, ground_first=ground_first)
+    moment = MU * MASS * G * RADIUS
+    expected = spin - math.copysign(moment / INERTIA, spin) * result.time
+    # constant deceleration, which both integrators take exactly but for rounding; some 1e-9 where steps are few
+    close = 1e-10 if formulation == "exudyn" else 1e-9
+    np.testing.assert_allclose(result["wheel.angular_velocity"], expected, atol=close)
+    on_second = -1.0 if ground_first else 1.0  # against the wheel's spin if that is the second body
+    np.testing.assert_allclose(
+        result["pin.pivot.friction_moment"], on_second * math.copysign(moment, spin), rtol=1e-9
+    )
+    lost = 0.5 * INERTIA * (spin**2 - expected**2)
+    np.testing.assert_allclose(result["energy.friction_loss"], lost, atol=100.0 * close)
+    assert result.energy_error < 100.0 * close
+
+
+@FORMULATIONS
+def test_a_wheel_that_creeps_is_slowed_down_by_the_ramp_of_the_law(formulation: str) -> None:
+    law = Ambrosio(sliding_coefficient=MU, static_speed=0.0, dynamic_speed=1.0)
+    result = spun_down(IdealPin(friction=law, radius=RADIUS), formulation, 1e-11)
+    # below 1 m/s a dashpot of mu N r^2
+    expected = 8.0 * np.exp(-MU * MASS * G * RADIUS**2 / INERTIA * result.time)
+    # second order of a step of 0.5 ms, against a decay within 5 s: 1e-9
+    close = 1e-8 if formulation == "exudyn" else 1e-9
+    np.testing.assert_allclose(result["wheel.angular_velocity"], expected, rtol=close)
+
+
+PINS = tuple(support().linkage.pins)
+
+
+def test_energy_adds_up_with_friction_in_all_pins(
+    simulate_cached: SimulateCached, assert_close: AssertClose
+) -> None:
+    pins: dict[str, Pin] = dict.fromkeys(PINS, SUPPORT_PIN)
+    coarse, fine = (simulate(support(drive=RISE, duration=0.5, pins=pins, step=h)) for h in (1e-3, 5e-4))
+    assert fine["energy.friction_loss"][-1] > 100.0
+    # second order, of a work of 5 kJ; measured 2e-7
+    assert fine.energy_error < 2e-6 * fine["energy.work"].max()
+    assert fine.energy_error < 0.35 * coarse.energy_error
+    # what the drive does more is what friction takes: the support ends where it would without
+    plain = simulate_cached(support(drive=RISE, duration=0.5))
+    more = fine["energy.work"][-1] - plain["energy.work"][-1]
+    assert more == pytest.approx(fine["energy.friction_loss"][-1], rel=1e-4)
+    assert_close(fine, plain, "1e-7 mm", channels=["tip.y"])  # the actuators' lengths say where
+
+
+def test_friction_and_radius_go_together() -> None:
+    assert IdealPin() == IdealPin(friction=None, radius=None)
+    for given in ({"radius": 0.1}, {"friction": Ambrosio(sliding_coefficient=0.1)}):
+        with pytest.raises(InputError, match=r"IdealPin: friction = .*allowed: both, or None for both"):
+            IdealPin(**given)
+    with pytest.raises(InputError, match=r"IdealPin\.radius = -1\.0: allowed: > 0"):
+        IdealPin(friction=Ambrosio(sliding_coefficient=0.1), radius=-1.0)
+
+
+# --- slider-crank, sled and slot ---
+
+
+GRAVITY, COEFFICIENT = 9.81, 0.1
+R, L, PIN_RADIUS, OMEGA = 0.05, 0.2, 0.01, 20.0 * math.pi  # slider-crank: lengths, pin [m], 600 rpm
 ROD, ROD_INERTIA, SLIDER = 0.5, 0.002, 0.8
-DRY, STICKING = Ambrosio(sliding_coefficient=MU), LuGre(static_coefficient=MU, sliding_coefficient=MU)
+DRY, STICKING = (
+    Ambrosio(sliding_coefficient=COEFFICIENT),
+    LuGre(static_coefficient=COEFFICIENT, sliding_coefficient=COEFFICIENT),
+)
 WAYS: dict[str, Callable[[Scenario], Result]] = {
     "compiled": lambda s: simulate(replace(s, formulation="compiled", solver=SolverSettings(tolerance=1e-9))),
     "exudyn": lambda s: simulate(replace(s, formulation="exudyn", step=2e-5)),
@@ -75,18 +174,18 @@ def lost_power(t: float, pin: float, guide: float) -> float:
 
     fx = fy = rubs = moment = 0.0  # of pin B on the slider, of the guide along, of pin B on the slider
     for _ in range(40):  # friction is a small share of what it depends on
-        rubs = DRY(speed, abs(SLIDER * G - fy)) * guide / MU
-        moment = RADIUS * DRY(-RADIUS * spin, math.hypot(fx, fy)) * pin / MU
+        rubs = DRY(speed, abs(SLIDER * GRAVITY - fy)) * guide / COEFFICIENT
+        moment = PIN_RADIUS * DRY(-PIN_RADIUS * spin, math.hypot(fx, fy)) * pin / COEFFICIENT
         fx = SLIDER * jerk - rubs
         about_a = ROD_INERTIA * bend + ROD * (x * ay - y * ax)
-        fy = (2.0 * y * fx - moment - x * ROD * G - about_a) / (2.0 * x)
+        fy = (2.0 * y * fx - moment - x * ROD * GRAVITY - about_a) / (2.0 * x)
     return -rubs * speed + moment * spin
 
 
 @both
-@pytest.mark.parametrize(("pin", "guide"), [(MU, 0.0), (MU, MU)])
+@pytest.mark.parametrize(("pin", "guide"), [(COEFFICIENT, 0.0), (COEFFICIENT, COEFFICIENT)])
 def test_a_slider_crank_loses_what_its_joint_forces_say(way: str, pin: float, guide: float) -> None:
-    pins = {"B": IdealPin(friction=Ambrosio(sliding_coefficient=pin), radius=RADIUS)} if pin else {}
+    pins = {"B": IdealPin(friction=Ambrosio(sliding_coefficient=pin), radius=PIN_RADIUS)} if pin else {}
     guides: dict[str, Guide] = {"g": IdealGuide(friction=DRY)} if guide else {}
     scene = Scenario(machine=Crankshaft(), drive=Steady(rate=OMEGA), duration=0.1, pins=pins, guides=guides)
     result = WAYS[way](replace(scene, record_period=1e-3))
@@ -114,7 +213,7 @@ BLOCK, SLOPE = (0.1, 0.04), math.radians(20.0)
 
 
 @both
-@pytest.mark.parametrize("weight", [0.0, G])
+@pytest.mark.parametrize("weight", [0.0, GRAVITY])
 def test_a_block_that_is_pulled_beside_its_guide_is_braked_by_the_moment(way: str, weight: float) -> None:
     force, high = 10.0, 0.2  # as a drawer that is pulled at its side
     scene = Scenario(
@@ -128,7 +227,7 @@ def test_a_block_that_is_pulled_beside_its_guide_is_braked_by_the_moment(way: st
     result = WAYS[way](scene)
     # both ends together press with twice the moment of pull and friction over the length, that of the weight
     # at the wall below more; after 1 ms the slip has passed the ramp of the law
-    braked = 2.0 * MU * (force * high + 0.5 * MU * weight * BLOCK[1]) / BLOCK[0]
+    braked = 2.0 * COEFFICIENT * (force * high + 0.5 * COEFFICIENT * weight * BLOCK[1]) / BLOCK[0]
     assert result["g.friction_force"][5:] == pytest.approx(-braked, rel=1e-6)
     acceleration = (result["sled.velocity_x"][-1] - result["sled.velocity_x"][5]) / (
         result.time[-1] - result.time[5]
@@ -160,7 +259,7 @@ def test_a_block_on_a_slope_creeps_with_a_warning_or_holds(way: str) -> None:
     way_down = np.hypot(found["holds"]["sled.x"], found["holds"]["sled.y"])
     assert way_down[-1] < 5e-5  # while bristles swing in they slip: steady deflections are 5 micrometres
     assert abs(way_down[-1] - way_down[50]) < 1e-7
-    assert found["holds"]["g.friction_force"][-1] == pytest.approx(G * math.sin(SLOPE), rel=1e-5)
+    assert found["holds"]["g.friction_force"][-1] == pytest.approx(GRAVITY * math.sin(SLOPE), rel=1e-5)
 
 
 def test_a_pin_in_a_slot_rubs_and_rolls_alike_in_both_formulations() -> None:

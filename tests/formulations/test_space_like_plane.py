@@ -1,4 +1,4 @@
-"""The support in space, moved alike on both sides, against the one in its plane."""
+"""The support in space: moved alike on both sides as in its plane, and driven apart."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from studies.common.paper_machine import JACK, oil_columns
+from studies.common.paper_machine import CLEARANCE_PIN, JACK, clearance_rise, oil_columns
 from support_exudyn import (
     ClearancePin,
     CubicStep,
@@ -18,6 +18,7 @@ from support_exudyn import (
     OwnBody,
     Result,
     Scenario,
+    SolverSettings,
     UniformSpeed,
     simulate,
 )
@@ -133,3 +134,82 @@ def test_an_accuracy_is_met_in_space() -> None:
     assert result.met
     assert result.scenario.formulation == "exudyn"
     assert result.scenario.dimensions == 3
+
+
+# --- front columns driven apart ---
+
+
+LENGTH = 0.7  # of the rear pin, reference support [m]
+
+
+@pytest.fixture(scope="module")
+def tilted() -> Result:
+    """The right front column lifts, the left one stays."""
+    case = clearance_rise(1.5, 0.25, 1e-3)
+    return simulate(
+        Scenario(
+            machine=case.machine,
+            pins=case.pins,
+            actuators=oil_columns(),
+            drive=Held(),
+            drives={"front_column_right": CubicStep(start=0.01, end=0.2, stroke=4e-3)},
+            duration=0.25,
+            dimensions=3,
+            start="settled",
+            step=1e-3,
+            solver=SolverSettings(impact_steps=64),
+        )
+    )
+
+
+def test_the_right_side_goes_up(tilted: Result) -> None:
+    assert (tilted["tip_left.z"][0], tilted["tip_right.z"][0]) == pytest.approx((-0.57, 0.57), abs=1e-14)
+    assert tilted["tip_right.y"][-1] - tilted["tip_left.y"][-1] > 1e-4
+    assert tilted["canopy.roll"][-1] < 0.0
+    # both points are 1.14 m apart across: their difference in height is that times the sine of the roll
+    apart = tilted["tip_right.y"] - tilted["tip_left.y"]
+    roll, yaw = tilted["canopy.roll"], tilted["canopy.yaw"]
+    turns = np.abs(yaw).max() + np.abs(tilted["canopy.angle"] - tilted["canopy.angle"][0]).max()
+    # of second order: products of the turns
+    np.testing.assert_allclose(apart, -1.14 * np.sin(roll), atol=1.14 * np.abs(roll).max() * turns)
+    assert turns < 0.01
+    assert tilted["front_column_right.force"][-1] > tilted["front_column_left.force"][-1] + 1e3
+    assert tilted["front_column_right.length"][-1] > tilted["front_column_left.length"][-1] + 1e-5
+    # with 64 steps an impact, as in the plane
+    assert tilted.energy_error < 1e-3 * tilted.dissipated
+
+
+def test_yaw_to_the_left_takes_the_tip_to_the_left(tilted: Result) -> None:
+    roll, yaw, beside = (
+        tilted["canopy.roll"][-1],
+        tilted["canopy.yaw"][-1],
+        tilted["tip.z"][-1] - tilted["canopy.z"][-1],
+    )
+    assert abs(yaw) > 1e-5
+    # theta x r: the tip is that far in front of the centre of mass, and that much above it, which rolls
+    ahead, above = tilted["tip.x"][-1] - tilted["canopy.x"][-1], tilted["tip.y"][-1] - tilted["canopy.y"][-1]
+    second = ahead * yaw**2 + abs(ahead * yaw * (tilted["canopy.angle"][-1] - tilted["canopy.angle"][0]))
+    assert beside == pytest.approx(roll * above - yaw * ahead, abs=3.0 * second)  # of second order
+
+
+def test_edges_of_the_pin_are_on_their_sides(tilted: Result) -> None:
+    left, right = (
+        np.array([tilted[f"pin.{CLEARANCE_PIN}.{side}_eccentricity_{axis}"] for axis in ("x", "y")])
+        for side in ("left", "right")
+    )
+    # theta x r at both edges, z = -L/2 and L/2
+    turned = LENGTH * np.array([-tilted["rear_link.yaw"], tilted["rear_link.roll"]])
+    largest = np.abs(turned).max()
+    assert largest > 1e-4
+    # of second order: products of the turns
+    in_plane = np.abs(tilted["rear_link.angle"] - tilted["rear_link.angle"][0]).max()
+    turns = in_plane + largest / LENGTH
+    np.testing.assert_allclose(left - right, turned, atol=turns * largest)
+    assert turns < 0.01
+    clearance = 1.5e-3
+    for side, place in (("left", left), ("right", right)):
+        depth = tilted[f"pin.{CLEARANCE_PIN}.{side}_depth"]
+        np.testing.assert_allclose(depth, np.hypot(*place) - clearance, atol=1e-15)
+    # the deepest edge is one of both, or between them
+    deepest = np.maximum(tilted[f"pin.{CLEARANCE_PIN}.left_depth"], tilted[f"pin.{CLEARANCE_PIN}.right_depth"])
+    assert (tilted[f"pin.{CLEARANCE_PIN}.depth"] >= deepest).all()

@@ -1,3 +1,5 @@
+"""Lengths of the engine's steps, and what happens within one: states between its ends, tops of forces."""
+
 from __future__ import annotations
 
 import math
@@ -8,6 +10,7 @@ from numpy.polynomial import Polynomial
 
 from support_exudyn.formulations.exudyn.solver.step_growth import CALM_STEPS, SMOOTH, StepGrowth
 from support_exudyn.formulations.exudyn.solver.within_steps import StepEnd, between
+from user_forces.roots import has_a_top, peak
 
 MASS = np.array([2.0, 2.0, 1.0])
 WEIGHT = math.sqrt(2.0) * 9.81
@@ -77,3 +80,18 @@ def test_quintics_cubics_and_lines_are_met(t: float) -> None:
     assert memory == pytest.approx([3.0 - 2.0 * t], abs=1e-14)
     _, velocity, _, _ = between(state(0.5, cubic, cubic), state(1.5, cubic, cubic), t)
     assert velocity == pytest.approx(state(t, cubic, cubic).velocity, abs=1e-14)
+
+
+# --- tops of forces ---
+
+
+@pytest.mark.parametrize("top", [0.01, 0.3, 0.5, 0.93, 0.99])
+def test_a_corner_is_found_wherever_it_lies_in_a_step(top: float) -> None:
+    assert peak(lambda x: 1.0 - abs(x - top), 0.0) == pytest.approx(1.0, abs=1e-4)
+    assert peak(lambda x: 1.0 - abs(x - top), 10.0) == 10.0
+    assert has_a_top(lambda x: 1.0 - abs(x - top), 1.0 - top, top)
+
+
+@pytest.mark.parametrize("slope", [-1.0, 0.0, 1.0])
+def test_a_force_that_rises_or_falls_throughout_has_no_top_inside(slope: float) -> None:
+    assert not has_a_top(lambda x: 5.0 + slope * x, 5.0, 5.0 + slope)

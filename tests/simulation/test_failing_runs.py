@@ -20,7 +20,7 @@ from support_exudyn import (
     simulate,
 )
 from tests.cases.run_cases import loose_support, paper_contact
-from user_forces import LankaraniNikravesh, friction_law
+from user_forces import friction_law
 from user_forces.lawful import UNLAWFUL
 
 
@@ -42,14 +42,6 @@ def bug(slip: float, normal_force: float) -> float:
 
 
 LAWS = {function.__name__: friction_law(function) for function in (nan, overflow, bug)}
-
-
-class Thin(LankaraniNikravesh):
-    """Is not valid below 10 micrometres."""
-
-    @property
-    def largest_depth(self) -> float:
-        return 1e-5
 
 
 def breaking(kind: str) -> Scenario:
@@ -78,18 +70,6 @@ def test_a_failure_says_when_and_in_what_state(kind: str, words: str) -> None:
     assert "step" in failure.state
     assert words in str(caught.value)
     assert (UNLAWFUL in str(caught.value)) == (kind == "nan")
-
-
-def test_a_contact_that_is_overloaded_says_what_the_law_takes() -> None:
-    good = paper_contact(1.5, 0.0)
-    thin = Thin(stiffness=good.normal.stiffness, restitution=0.9)
-    failure = simulate(_with(type(good)(bearing=good.bearing, normal=thin)), throw=False)
-    assert isinstance(failure, Failure)
-    assert failure.reason == "a contact is overloaded"
-    # the law's own words in place of advice on steps
-    assert "allowed: up to 1e-05 m" in failure.advice
-    assert "step" not in failure.advice
-    assert 0.017 < failure.time < 0.02  # the first impact is at 17.4 ms
 
 
 def test_a_bug_in_a_law_is_not_taken_for_a_failed_run() -> None:
