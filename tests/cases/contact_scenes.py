@@ -1,14 +1,7 @@
-"""Scenes with one clearance pin, drawn at random: what happens in its contact decides what comes out.
-
-    python -m tests.cases.contact_scenes SEED COUNT [ACCURACY...]
-
-runs them to an accuracy and compares every number with what is right, by a run of the same formulation to
-a far smaller tolerance.
-"""
+"""Scenes with one clearance pin, drawn at random: what happens in its contact decides what comes out."""
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterator
 from dataclasses import replace
 from typing import NamedTuple
@@ -21,7 +14,6 @@ from support_exudyn import (
     Held,
     Result,
     Scenario,
-    SimulationError,
     SolverSettings,
     Steady,
     UniformSpeed,
@@ -29,7 +21,6 @@ from support_exudyn import (
     reference_support,
     simulate,
 )
-from support_exudyn.formulations.registry import formulation
 from tests.cases.run_cases import CRANK_SPEED, PIN, SLIDER_PIN
 from user_forces import (
     STEEL,
@@ -130,47 +121,3 @@ def finely(scenario: Scenario, tolerance: float = FINEST) -> Result:
     return simulate(
         replace(scenario, accuracy=None, solver=SolverSettings(tolerance=tolerance, most_steps=1_000_000))
     )
-
-
-def main(seed: int, count: int, accuracies: list[str]) -> None:
-    """Print what is off, and how much is covered."""
-    covered = {accuracy: [0, 0, 0] for accuracy in accuracies}
-    for number in range(count):
-        try:
-            scene = drawn(seed, number)
-            formulation("compiled").check(scene)
-            right = finely(scene)
-            sure = finely(scene, 0.2 * FINEST)
-        except (SimulationError, ValueError) as error:
-            print(number, "refused:", str(error)[:120], flush=True)
-            continue
-        for accuracy in accuracies:
-            result = simulate(replace(scene, accuracy=accuracy))
-            if not result.met:
-                covered[accuracy][2] += 1
-                continue
-            found = list(off(result, right))
-            covered[accuracy][0] += sum(item.errors <= 1.0 for item in found)
-            covered[accuracy][1] += len(found)
-            worst = max(found, key=lambda item: item.errors)
-            if worst.errors > OFF:
-                doubt = max(
-                    abs(item.right - item.value)
-                    for item in off(replace(sure, coarser=sure), right)
-                    if item.name == worst.name
-                )
-                print(
-                    number,
-                    accuracy,
-                    worst,
-                    "right within",
-                    doubt,
-                    sum(item.errors > OFF for item in found),
-                    flush=True,
-                )
-    for accuracy, (inside, of, missed) in covered.items():
-        print(f"{accuracy}: {inside} of {of} covered ({100.0 * inside / max(1, of):.2f} %), {missed} not met")
-
-
-if __name__ == "__main__":
-    main(int(sys.argv[1]), int(sys.argv[2]), sys.argv[3:] or ["draft", "standard", "reference"])

@@ -8,8 +8,6 @@ from functools import cache
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from support_exudyn import (
     Body,
@@ -31,8 +29,6 @@ from tests.cases.guide_cases import (
     slider_crank_by_scipy,
     start_of,
 )
-from tests.metamorphic.moving import UPSIDE_DOWN, Move, Moved, context, turn
-from tests.metamorphic.same import run, scenes, told
 from user_forces import (
     Ambrosio,
     Exact,
@@ -223,62 +219,6 @@ def test_an_impact_delivers_the_restitution_of_its_law(law: NormalLaw, part: str
     assert onset.separation_velocity / onset.speed == pytest.approx(
         wanted, rel=2e-3 if part == "corner" else 2e-4
     )
-
-
-# --- seen from elsewhere ---
-
-
-def seen_back(result: Result, move: Move) -> dict[str, np.ndarray]:
-    """The channels of a scene that was moved, as they are where it was."""
-    found = context(result, move.back)
-    del found["guide.guide.place"]  # which jumps where contacts begin and end
-    if not move.flipped:
-        return found
-    # along the guide nothing changes, which `context` does not know
-    signed = {f"guide.guide.{what}" for what in ("force", "tilt", "moment", "friction_force")}
-    return {swapped(name): -values if name in signed else values for name, values in found.items()}
-
-
-def swapped(name: str) -> str:
-    """A corner, seen in a mirror along the guide."""
-    return name.replace("upper", "?").replace("lower", "upper").replace("?", "lower")
-
-
-@scenes(6)
-@given(
-    machine=st.builds(
-        FreePair,
-        direction=st.sampled_from((-2.0, 0.0, 0.7)),
-        along=st.sampled_from((-0.8, 0.2, 1.5)),
-        spin=st.sampled_from((-3.0, 0.5, 6.0)),
-        velocity=st.sampled_from(((0.3, -0.8), (-0.5, 1.0))),
-        grounded=st.booleans(),
-    ),
-    # not 0: whether a corner that leaves a wall touches it at the start is a matter of rounding
-    gaps=st.sampled_from(((1e-3, 1e-5), (2e-4, 1e-3), (1e-3, 1e-3))),
-    friction=st.sampled_from((Frictionless(), RUBBING)),
-    move=st.sampled_from((UPSIDE_DOWN, turn(137.0), Move(shift=(3.0, -2.0)), turn(-60.0))),
-)
-def test_a_scene_elsewhere_in_a_mirror_or_turned_moves_as_it_did(
-    machine: FreePair,
-    gaps: tuple[float, float],
-    friction: Ambrosio | Frictionless,
-    move: Move,
-) -> None:
-    guide = ClearanceGuide(gaps=gaps, normal=KEPT, friction=friction, block=BLOCK)
-    one = pair(machine, guide, 0.005, solver=SolverSettings(impact_steps=32))
-    there = Moved(inner=machine, along=move.along, flipped=move.flipped, shift=move.shift, about=move.about)
-    other = replace(
-        one,
-        machine=there,
-        guides={"guide": replace(guide, gaps=gaps[::-1] if move.flipped else gaps)},
-        gravity=move.vector(GRAVITY),
-    )
-    here, moved = run(one), told(other)
-    here.check(seen_back(moved, move))
-    for name, onsets in here.result.onsets.items():
-        theirs = moved.onsets[swapped(name) if move.flipped else name]
-        assert len(onsets) == len(theirs), name
 
 
 # --- what is recorded ---

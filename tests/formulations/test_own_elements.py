@@ -20,12 +20,9 @@ from support_exudyn import (
     Scenario,
     SolverSettings,
     TorsionSpring,
-    channels,
     simulate,
     value,
 )
-from support_exudyn.documentation.keys import keys_page
-from support_exudyn.files.scenarios.scenario_file import scenario_schema
 from support_exudyn.model.loads.load import ActingLoad
 from tests.formulations.test_bushing_pin import MASS as BLOCK_MASS
 from tests.formulations.test_bushing_pin import Block
@@ -165,12 +162,3 @@ def test_it_swings_as_by_scipy_and_its_energies_add_up(kind: str, formulation: s
     turned = np.ptp(result["energy.potential"])
     assert result.energy_error < 1e-3 * turned
     assert result["energy.damping_loss"][-1] > 1e-3 * turned
-
-
-@each
-def test_its_channels_and_its_keys_are_on_the_pages(kind: str) -> None:
-    table = channels(SCENES[kind])
-    assert table[f"{STEMS[kind]}.pressed"] == ("m", "how far it gives")
-    page = keys_page("Keys", scenario_schema())
-    assert f"## {'OwnBuffer' if kind == 'load' else 'OwnRubberPin'}\n" in page
-    assert "_Rubber" not in page

@@ -285,7 +285,7 @@ def test_a_freedom_too_many_is_told_with_what_moves() -> None:
 # --- all of it ---
 
 
-@pytest.mark.parametrize("length", [0.7, 1.1, 1.6, 1.9, 2.3])
+@pytest.mark.parametrize("length", [0.7, 1.9])
 def test_a_mass_on_an_upright_guide_over_a_jack_has_no_dead_centre(length: float) -> None:
     linkage = Linkage(
         bodies={"head": Body(mass=1e4, inertia=100.0, centre=(0.0, length))},

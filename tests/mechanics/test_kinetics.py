@@ -254,22 +254,6 @@ def test_response_obeys_momentum_and_constraints(
     np.testing.assert_allclose(rows @ change, c, atol=1e-12)
 
 
-@sometimes
-@given(mass=masses, impulse=st.tuples(*[coordinates] * 3))
-def test_joints_that_repeat_each_other_leave_the_motion_as_it_is(
-    mass: float, impulse: tuple[float, ...]
-) -> None:
-    # pivot and driven angle hold all; the same pivot again adds nothing
-    pins = {"p": pinned(GROUND, "a", (0.0, 0.0)), "again": pinned(GROUND, "a", (0.0, 0.0))}
-    body = Body(mass=mass, inertia=1.0, centre=(0.3, 0.4))
-    once = kinetics(Linkage(bodies={"a": body}, pins={"p": pins["p"]}))
-    twice = kinetics(Linkage(bodies={"a": body}, pins=pins))
-    one, _ = once.respond(np.zeros(3), np.array(impulse), 0.0)
-    two, _ = twice.respond(np.zeros(3), np.array(impulse), 0.0)
-    # rounding of impulses up to 1 N s on 0.1 kg
-    np.testing.assert_allclose(two, one, atol=1e-13)
-
-
 # --- as the pins of a scene are told ---
 
 

@@ -11,7 +11,6 @@ import pytest
 from support_exudyn.mechanics.pin_stability import (
     LoadedJournal,
     NoEquilibriumError,
-    SlidingPin,
     critical_friction,
     painleve_friction,
     sliding_pin,
@@ -22,7 +21,6 @@ from user_forces import (
     Hertz,
     JournalBearing,
     JournalContact,
-    LankaraniNikravesh,
     PinInBore,
 )
 
@@ -157,32 +155,6 @@ def test_moments_of_friction_turn_the_bodies_and_move_the_journal() -> None:
     friction = float(moments[1].friction_along @ np.array([-n[1], n[0]]))
     q = -moments[1].normal_force * n + moments[1].friction_along + turning.journal_turn * arm * friction
     assert q == pytest.approx(load, rel=1e-8, abs=1e-4)
-
-
-def mirrored(given: LoadedJournal) -> LoadedJournal:
-    flip = np.diag([-1.0, 1.0])
-    return LoadedJournal(
-        flip @ given.inverse_mass @ flip,
-        flip @ given.load,
-        -flip @ given.journal_turn,
-        -flip @ given.bore_turn,
-        -given.journal_spin,
-        -given.bore_spin,
-    )
-
-
-def sorted_roots(found: SlidingPin) -> np.ndarray:
-    return found.roots[np.lexsort((found.roots.imag, found.roots.real))]
-
-
-def test_what_is_seen_in_a_mirror_shakes_alike() -> None:
-    law = LankaraniNikravesh(stiffness=STIFFNESS, restitution=0.9)
-    given = LoadedJournal(
-        INVERSE_MASS, np.array([0.6, 0.8]) * LOAD, np.array([1.8, -0.6]), np.array([0.3, 0.4]), -0.3, 0.1
-    )
-    one, other = (sliding_pin(each, contact(0.3, law)) for each in (given, mirrored(given)))
-    assert sorted_roots(other) == pytest.approx(sorted_roots(one), rel=1e-6)
-    assert other.place == pytest.approx(one.place * np.array([-1.0, 1.0]), rel=1e-8)
 
 
 def test_friction_that_rises_with_the_slip_damps() -> None:

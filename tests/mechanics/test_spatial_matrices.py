@@ -19,7 +19,6 @@ from support_exudyn.mechanics.body_motion import (
     turning_matrix,
 )
 from support_exudyn.mechanics.constraints import (
-    bearing_row,
     constraints_in_space,
     frame_of,
     matrix,
@@ -170,22 +169,6 @@ def test_rows_are_the_rates_of_what_is_held(
     np.testing.assert_allclose(got, slope, atol=1e-7)
 
 
-@given(linkage=machines(), state=states())
-def test_tilt_rows_are_the_rates_of_one_axis_in_the_other(
-    linkage: SpatialLinkage, state: tuple[np.ndarray, np.ndarray]
-) -> None:
-    # both bodies turned alike, so that the axes coincide: the rate of the journal's axis in the bore's axes
-    position, velocity = state
-    position[10:] = position[3:7]
-    motion = at(linkage, position)
-    tilts = [bearing_row("p", linkage.bearings["p"], kind) for kind in ("tilt_1", "tilt_2")]
-    frame = motion.rotations[0, 0] @ frame_of(linkage.bearings["p"].first_axis)
-    drift = np.cross(velocity[9:12] - velocity[3:6], frame[:, 2])
-    # turning about the first axis moves z against the second, about the second along the first; rounding
-    expected = [-drift @ frame[:, 1], drift @ frame[:, 0]]
-    np.testing.assert_allclose(matrix(motion, tilts)[0] @ velocity, expected, atol=1e-12)
-
-
 @given(linkage=machines(), state=states(), forces=st.lists(unit, min_size=12, max_size=12))
 def test_reactions_are_the_smallest_that_do_it(
     linkage: SpatialLinkage, state: tuple[np.ndarray, np.ndarray], forces: list[float]
@@ -202,21 +185,6 @@ def test_reactions_are_the_smallest_that_do_it(
     # rounding, which a lift of 1e-9 multiplies, of rows with arms of 20 m; measured 2e-6
     np.testing.assert_allclose(found, expected, atol=3e-5)
     np.testing.assert_allclose(found[: len(rows)], found[len(rows) :], atol=3e-5)  # alike what is alike
-
-
-@given(linkage=machines(), state=states(), impulse=st.lists(unit, min_size=12, max_size=12), jump=unit)
-def test_response_obeys_momentum_and_constraints(
-    linkage: SpatialLinkage, state: tuple[np.ndarray, np.ndarray], impulse: list[float], jump: float
-) -> None:
-    motion = at(linkage, state[0])
-    rows = constraints_in_space(linkage, (), ("k",))
-    c = matrix(motion, rows)[0]
-    assume(np.linalg.svd(c, compute_uv=False).min() > 0.05)
-    system = Instant(motion, rows)
-    change, multipliers = system.respond(np.array(impulse), jump)
-    # rounding, of conditions up to 1e5
-    np.testing.assert_allclose(system.mass @ change + c.T @ multipliers, impulse, atol=1e-9)
-    np.testing.assert_allclose(c @ change, np.full(len(rows), jump), atol=1e-9)
 
 
 @given(p=parameters(), spin=vectors, rate=vectors)

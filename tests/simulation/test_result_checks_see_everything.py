@@ -4,21 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from functools import cache
 from typing import Any
 
 import pytest
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
 
-from support_exudyn import ClearancePin, Failure, Held, OilColumn, Scenario, bore_area, simulate
+from support_exudyn import ClearancePin, Failure, Held, Scenario, simulate
 from support_exudyn.simulation import result_checks as looking
 from tests.cases.run_cases import PIN, loose_support, support
-from tests.formulations.test_drives import TURN, Jumping
 from user_forces import JournalBearing, JournalContact, LankaraniNikravesh
 
-OIL = OilColumn(bore_area=bore_area(0.25, 2), oil_length=0.5, bulk_modulus=1.5e9)
-OILS = {"front_column": OIL, "rear_column": OIL}
 BEARING = JournalBearing(bore_radius=0.0655, clearance=0.0005)
 
 
@@ -26,36 +20,6 @@ def soft(**changes: Any) -> Scenario:
     """A contact so soft that the journal goes through its bore."""
     contact = JournalContact(bearing=BEARING, normal=LankaraniNikravesh(stiffness=1e6, restitution=0.5))
     return support(pins={PIN: ClearancePin(contact=contact)}, drive=Held(), duration=0.2, **changes)
-
-
-# each with why it is refused
-WRONG: dict[str, tuple[Scenario, str]] = {
-    "exudyn, deep": (soft(), "mm deep in a bore of 65.5 mm radius"),
-    "compiled, deep": (soft(formulation="compiled", actuators=OILS), "mm deep in a bore of 65.5 mm radius"),
-    "space, deep": (soft(dimensions=3), "mm deep in a bore of 65.5 mm radius"),
-    "open": (
-        replace(TURN, drive=Jumping(silent=True), step=2e-5),
-        "energy does not add up",
-    ),
-}
-
-
-@cache
-def verdict(scene: str) -> Failure:
-    found = simulate(WRONG[scene][0], throw=False)
-    assert isinstance(found, Failure)
-    return found
-
-
-@pytest.mark.parametrize("scene", WRONG)
-@settings(max_examples=6, deadline=None, suppress_health_check=[HealthCheck.too_slow])
-@given(data=st.data())
-def test_a_refusal_is_the_same_whatever_is_recorded(scene: str, data: st.DataObject) -> None:
-    scenario, reason = WRONG[scene]
-    assert reason in verdict(scene).reason
-    names = st.lists(st.sampled_from(list(scenario.channel_definitions)), max_size=3, unique=True)
-    found = simulate(replace(scenario, channels=tuple(data.draw(names))), throw=False)
-    assert found == verdict(scene)
 
 
 def test_a_point_alone_does_not_hide_a_journal_far_outside_its_bore() -> None:

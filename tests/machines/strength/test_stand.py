@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import math
-import re
-from collections.abc import Iterator
 from dataclasses import replace
 from importlib import resources
 from typing import Any
@@ -15,15 +12,12 @@ from support_exudyn.files.machines import load_machine, shipped
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.machines.planar_linkage import PlanarLinkage
 from support_exudyn.machines.strength import StandReport, stand
-from support_exudyn.machines.strength.page import page
 from support_exudyn.machines.strength.strength_data import CylinderStrength, StrengthData
 from support_exudyn.model.loads.springs import SpringDamper
 from tests.machines.strength.test_roof_forces import beam
-from tests.metamorphic.scaling import Scale
 from tests.pages import ROOT, listings
 from user_forces import InputError
 
-SHIELDS = ("reference", "zf18000", "two_leg_shield")
 REPORTS: dict[str, StandReport] = {}
 
 
@@ -34,19 +28,6 @@ def report(name: str) -> StandReport:
 
 
 # --- shipped supports ---
-
-
-@pytest.mark.parametrize("name", SHIELDS)
-def test_the_page_is_one_page(name: str) -> None:
-    lines = list(page(report(name)))
-    assert len(lines) <= 64
-    assert max(map(len, lines)) <= 100
-    text = "\n".join(lines)
-    for section in range(1, 7):
-        assert f"\n{section} " in text
-    for said in ("EN 1804-1, 4.3.1", "EN 1804-1, 4.3.2", "assumed: ", "source: strength: "):
-        assert said in text
-    assert re.search(r"\b(nan|inf)\b", text) is None
 
 
 def test_four_columns_hold_together_what_each_row_pushes() -> None:
@@ -82,54 +63,6 @@ def test_pins_are_judged_at_one_and_at_one_point_two_times_yield() -> None:
         assert pin.stresses is not None
         assert pin.stresses[0].force == pin.worst[1.2]
         assert pin.stresses[1].force == pin.rubbed[1.2]
-
-
-# --- in other units ---
-
-
-def test_in_other_units_all_is_the_same() -> None:
-    """Lengths times 2, times sqrt 2, as gravity stays: forces times M, stresses times M/4."""
-    scale = Scale(length=2.0, mass=3.0, time=math.sqrt(2.0))
-    data = shipped("reference")
-    assert data.strength is not None
-    pins = {
-        name: replace(pin, pin_yield_stress=pin.yields[0], eye_yield_stress=pin.yields[1])
-        for name, pin in data.strength.pins.items()
-    }
-    data = replace(data, strength=replace(data.strength, pins=pins))
-    assert data.strength is not None
-    made: Any = scale._value
-    other = replace(
-        data,
-        machine=made(data.machine),
-        bore_radii={name: 2.0 * radius for name, radius in data.bore_radii.items()},
-        actuators={name: made(one) for name, one in data.actuators.items()},
-        stroke=2.0 * (data.stroke or 0.0),
-        strength=made(data.strength),
-    )
-    one, larger = (dict(leaves(found.data())) for found in (stand(data), stand(other)))
-    assert one.keys() == larger.keys()
-    endings = {"N": 3.0, "m": 2.0, "Pa": 0.75, "N_m": 6.0, "kg": 3.0, "rad": 1.0}
-    told = 0
-    for key, number in one.items():
-        unit = next(
-            (ending for ending in ("N_m", "Pa", "N", "m", "kg", "rad") if f"_{ending}." in f"{key}."), ""
-        )
-        assert larger[key] == pytest.approx(endings.get(unit, 1.0) * number, rel=1e-6, abs=1e-6), key
-        told += bool(unit)
-    assert told > 400
-
-
-def leaves(data: Any, where: str = "") -> Iterator[tuple[str, float]]:
-    """Numbers of plain data, by their dotted keys."""
-    if isinstance(data, dict):
-        for key, item in data.items():
-            yield from leaves(item, f"{where}.{str(key).replace('.', '-')}")
-    elif isinstance(data, (list, tuple)):
-        for n, item in enumerate(data):
-            yield from leaves(item, f"{where}.{n}")
-    elif isinstance(data, (int, float)) and not isinstance(data, bool):
-        yield where, float(data)
 
 
 # --- refusals and files ---
