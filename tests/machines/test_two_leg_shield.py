@@ -1,4 +1,4 @@
-"""The two-leg shield: its ram keeps the canopy level, along a smooth curve that is as good as exact."""
+"""The two-leg shield: its ram keeps the canopy level; columns that are driven apart."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from support_exudyn import CubicStep, Drive, Held, Scenario, Steady, UniformSpeed
+from support_exudyn import CubicStep, Drive, Held, Scenario, Steady, UniformSpeed, reference_support
 from support_exudyn.files.machines.read import read_machine
 from support_exudyn.machines.two_leg_shield import TwoLegShield
 from support_exudyn.model.drives.coupled_drive import CoupledDrive
@@ -87,3 +87,34 @@ def test_breaks_jumps_and_starts_are_those_of_the_leg(shield: TwoLegShield) -> N
 def test_what_cannot_be_followed_is_told(shield: TwoLegShield, drives: dict[str, Drive], said: str) -> None:
     with pytest.raises(InputError, match=said):
         Scenario(machine=shield, drive=CubicStep(stroke=0.2), drives=drives, duration=5.0)
+
+
+# --- columns that are driven apart ---
+
+
+SUPPORT = reference_support()
+
+
+def driven(front: Drive, rear: Drive, duration: float = 5.0) -> Scenario:
+    return Scenario(machine=SUPPORT, drives={"front_column": front, "rear_column": rear}, duration=duration)
+
+
+def test_a_way_that_is_open_is_taken_though_its_corners_are_not() -> None:
+    """One column alone cannot come so far; both together can, nearly."""
+    with pytest.raises(InputError, match="rear_column cannot follow"):
+        driven(CubicStep(stroke=0.0), CubicStep(stroke=0.8))
+    driven(CubicStep(stroke=0.8), CubicStep(stroke=0.79))
+
+
+def test_columns_one_after_the_other_are_told_when() -> None:
+    """At its own end a drive would do; before the other has come, it does not."""
+    with pytest.raises(InputError, match=r"drives\.rear_column: rear_column cannot follow beyond 1\.\d+ s"):
+        driven(CubicStep(stroke=0.8, start=3.0, end=4.0), CubicStep(stroke=0.79, start=1.0, end=2.0))
+
+
+def test_what_was_followed_for_a_while_is_looked_at_for_longer() -> None:
+    """The same drives: so far they go, and then no farther."""
+    front, rear = CubicStep(stroke=0.0), CubicStep(stroke=0.8, start=1.0, end=3.0)
+    driven(front, rear, duration=1.2)
+    with pytest.raises(InputError, match="rear_column cannot follow"):
+        driven(front, rear, duration=3.0)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
@@ -25,6 +25,7 @@ from support_exudyn.formulations.exudyn.run import run
 from support_exudyn.mechanics.observed_run import Outcome
 from support_exudyn.scenario.recorded_channels import Channel, channels
 from support_exudyn.scene.limits import DEEPEST
+from support_exudyn.simulation import result_checks as looking
 from support_exudyn.simulation.result_checks import (
     APART,
     GIVEN_BACK,
@@ -34,8 +35,8 @@ from support_exudyn.simulation.result_checks import (
     rounding_of_energy,
     turned_over,
 )
-from tests.cases.run_cases import PIN, loose_support
-from user_forces import LuGre
+from tests.cases.run_cases import PIN, loose_support, support
+from user_forces import JournalBearing, JournalContact, LankaraniNikravesh, LuGre
 
 SCENARIO = loose_support(1.5, 0.25, drive=Held(), duration=0.05)
 DEPTH = f"pin.{PIN}.depth"
@@ -209,3 +210,39 @@ def test_a_run_that_comes_out_wrong_is_refused_unless_asked_for(
     assert caught.value.failure.time == pytest.approx(5e-3, rel=1e-12)  # rounding
     unseen = simulate(replace(scenario, solver=SolverSettings(result_checks=False)))
     assert unseen.time.size == 11
+
+
+# --- whatever is recorded ---
+
+
+BEARING = JournalBearing(bore_radius=0.0655, clearance=0.0005)
+
+
+def soft(**changes: Any) -> Scenario:
+    """A contact so soft that the journal goes through its bore."""
+    contact = JournalContact(bearing=BEARING, normal=LankaraniNikravesh(stiffness=1e6, restitution=0.5))
+    return support(pins={PIN: ClearancePin(contact=contact)}, drive=Held(), duration=0.2, **changes)
+
+
+def test_a_point_alone_does_not_hide_a_journal_far_outside_its_bore() -> None:
+    found = simulate(replace(soft(formulation="compiled"), channels=("tip.x",)), throw=False)
+    assert isinstance(found, Failure)
+    assert f"the journal of {PIN} is" in found.reason
+
+
+PLANTED: dict[str, Callable[[Any], Any]] = {
+    "energy_open": lambda real: lambda *a: (real(*a)[0] + 2.0 * real(*a)[1], real(*a)[1]),
+    "joints_apart": lambda real: lambda *a: real(*a) + 2.0 * looking.APART,
+}
+
+
+@pytest.mark.parametrize("formulation", ["exudyn", "compiled"])
+@pytest.mark.parametrize("asked", [("*",), ("tip.x",), ()])
+@pytest.mark.parametrize("what", ["energy_open", "joints_apart"])
+def test_every_look_is_taken_whatever_is_recorded(
+    what: str, asked: tuple[str, ...], formulation: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    scenario = loose_support(0.5, 0.25, drive=Held(), duration=0.01, formulation=formulation, channels=asked)
+    assert not isinstance(simulate(scenario, throw=False), Failure)
+    monkeypatch.setattr(looking, what, PLANTED[what](getattr(looking, what)))
+    assert isinstance(simulate(scenario, throw=False), Failure)

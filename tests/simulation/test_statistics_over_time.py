@@ -1,8 +1,9 @@
-"""Means, deviations and extremes are over time from every step, whatever is recorded."""
+"""Means, deviations and extremes are over time from every step, whatever is recorded; times of the largest."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -28,7 +29,9 @@ from support_exudyn.formulations.statistics.collected import StepStatistics
 from support_exudyn.formulations.statistics.magnitudes import divided
 from support_exudyn.formulations.statistics.steps import NODES
 from support_exudyn.mechanics.time_statistics import TimeStatistics, statistics_of_records
-from tests.cases.run_cases import FORCE, support
+from tests import synthetic
+from tests.cases.run_cases import FORCE, SLIDER_PIN, loose_slider_crank, support
+from tests.compiled_runs import simulate_compiled, simulate_on_exudyn
 from tests.linkages import apex, four_bar, towards
 
 SIX_BAR = """kind = "linkage"
@@ -208,3 +211,54 @@ def test_the_mean_of_a_magnitude_is_right_where_its_vector_passes_zero_within_a_
         assert whole.window("size", 0.0, 3.0).mean == pytest.approx(expected, rel=2e-5)
         assert whole.window("size", 0.0, 3.0).least[0] == pytest.approx(tip, abs=1e-3)
         assert whole.window("cubic", 0.0, 3.0).mean == pytest.approx(27.0 / 4.0, rel=1e-13)
+
+
+# --- times of largest forces ---
+
+
+TIME = np.linspace(0.0, 1.0, 101)
+PERIOD = 0.01
+
+
+def bumps(second: float) -> np.ndarray:
+    """A force with a top of 2 at 0.2 s and one of another height at 0.7 s."""
+    tops = 2.0 * np.exp(-(((TIME - 0.2) / 0.05) ** 2)), second * np.exp(-(((TIME - 0.7) / 0.05) ** 2))
+    return np.asarray(-tops[0] + tops[1])
+
+
+def three(*forces: np.ndarray) -> Result:
+    """Runs with these forces of a pin, the last the finest."""
+    scenario = replace(support(drive=Held(), duration=1.0), record_period=PERIOD)
+    found: Result | None = None
+    for force in forces:
+        found = replace(synthetic.result(scenario, TIME, {FORCE: (force, "N")}), coarser=found)
+    assert found is not None
+    return found
+
+
+def test_where_another_time_could_be_meant_the_error_reaches_there() -> None:
+    # the runs differ by 0.01 N, and the tops by half of that
+    when = three(*(bumps(second) for second in (1.985, 1.985, 1.995))).numbers()[f"{FORCE}.largest_time"]
+    assert when.value == pytest.approx(0.2)
+    assert when.error >= 0.5
+
+
+DURATION = 0.004
+
+
+@pytest.mark.parametrize("run", [simulate_compiled, simulate_on_exudyn])
+def test_the_largest_force_at_any_step_is_there_at_its_time_and_not_before(
+    run: Callable[..., Result], tmp_path: Path
+) -> None:
+    scenario = replace(loose_slider_crank(DURATION), record_period=2e-5)
+    found = run(scenario)
+    largest, when = found.largest_force[SLIDER_PIN], found.largest_force_time[SLIDER_PIN]
+    contacts = [(one.time, one.separation_time) for one in found.onsets[SLIDER_PIN]]
+    contact = next(n for n, (onset, separation) in enumerate(contacts) if onset < when <= separation)
+    records = 2e-5 * np.floor(np.array(contacts[contact]) / 2e-5 + [0, 1])
+    before, after = (run(replace(scenario, duration=float(end))) for end in records)
+    assert before.largest_force[SLIDER_PIN] < largest
+    assert after.largest_force[SLIDER_PIN] == pytest.approx(largest, rel=1e-3)
+    assert after.largest_force_time[SLIDER_PIN] == pytest.approx(when, abs=2e-6)
+    again = Result.load(found.save(tmp_path / "run.h5"))
+    assert again.largest_force_time == found.largest_force_time
