@@ -24,7 +24,8 @@ from tests.metamorphic.moving import MIRROR, moved
 from user_forces import HuGuo, JournalBearing, JournalContact, NormalLaw
 
 BEARING = JournalBearing(bore_radius=0.0655, clearance=3e-4)
-OF_WALLS = [law for law in NORMAL_LAWS if not hasattr(law, "bearing")]
+SOME = [law for law in NORMAL_LAWS if kind_of(law) in ("Exact", "Johnson", "KelvinVoigt", "AdamsImpact")]
+OF_WALLS = [law for law in SOME if not hasattr(law, "bearing")]
 
 
 def table(links: int, law: NormalLaw, duration: float = 0.03) -> Scenario:
@@ -57,9 +58,9 @@ def guided(law: NormalLaw, duration: float = 0.02) -> Scenario:
     )
 
 
-@pytest.mark.parametrize("law", NORMAL_LAWS, ids=kind_of)
+@pytest.mark.parametrize("law", SOME, ids=kind_of)
 def test_a_table_on_equal_links_does_not_turn(law: NormalLaw) -> None:
-    mirror = NORMAL_LAWS.index(law) % 2 == 1  # every other law of three links, in a mirror
+    mirror = SOME.index(law) % 2 == 1  # every other law of three links, in a mirror
     links = 3 if mirror else 2
     scenario = table(links, law)
     result = simulate_compiled(moved(scenario, MIRROR) if mirror else scenario, 1e-9)

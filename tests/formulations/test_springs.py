@@ -191,20 +191,6 @@ def test_a_support_settles_with_a_spring_between_two_bodies() -> None:
     assert result["spring.force"][0] == pytest.approx(-2e5 * result["spring.length"][0], rel=1e-9)
 
 
-@pytest.mark.parametrize(
-    ("changes", "said"),
-    [
-        ({"other_point": SPRING.point}, "has no direction"),
-        ({"other": "rocker"}, "is the body itself"),
-        ({"stiffness": 0.0, "damping": 0.0}, "one of them > 0"),
-        ({"stiffness": -1.0}, "stiffness"),
-    ],
-)
-def test_springs_that_cannot_be_are_refused(changes: dict[str, object], said: str) -> None:
-    with pytest.raises(InputError, match=said):
-        replace(SPRING, **changes)
-
-
 def test_loads_that_do_not_fit_the_machine_are_refused() -> None:
     scene = Scenario(machine=CrankRocker(), duration=0.1)
     with pytest.raises(InputError, match=r"loads\.m\.other = 'wheel': no such body; allowed: ground, crank"):

@@ -108,23 +108,6 @@ def test_a_break_just_beside_a_record_is_as_one_on_it(scene: str, beside: float)
     assert found.counts.steps < 1.5 * coinciding(scene).counts.steps + 40
 
 
-RISE = support(drive=CubicStep(start=0.1, end=0.9, stroke=0.05), duration=1.0)
-
-
-@pytest.mark.parametrize("formulation", ["exudyn", "compiled"])
-def test_records_that_end_just_before_the_run(formulation: Any) -> None:
-    period = 0.0333333333  # as a third of a tenth is typed in ms
-    rise = replace(RISE, formulation=formulation)
-    exact, typed = (simulate(replace(rise, record_period=p)) for p in (1.0 / 30.0, period))
-    # records are what was asked for, and the last is the end
-    assert typed.time.tolist() == pytest.approx([*(n * period for n in range(31)), 1.0], rel=1e-15)
-    assert typed.time[-1] == 1.0
-    for name in ("pin.rear_base.force", "front_column.force"):
-        # 1e-9 s apart at most
-        np.testing.assert_allclose(typed[name][:-1], exact[name], rtol=1e-6)
-        assert typed[name][-1] == pytest.approx(exact[name][-1], rel=1e-6)
-
-
 @cache
 def dropped(record_period: float) -> Result:
     return simulate(loose_support(0.5, 0.25, duration=0.04, record_period=record_period))

@@ -21,7 +21,6 @@ from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.model.linkage import lumped
 from support_exudyn.model.plane_geometry import moved
 from tests.machine_files import OURS, written
-from user_forces import InputError
 
 G = 9.81
 SHIELDS = ("reference", "zf18000", "two_leg_shield")
@@ -212,17 +211,6 @@ def test_doubts(tmp_path: Path, doubt: str) -> None:
     old, new, said = DOUBTS[doubt]
     report = check_machine(load_machine(written(tmp_path, old, new)))
     assert any(said in warning for warning in report.warnings), report.warnings
-
-
-def test_a_stroke_may_be_asked_for_and_may_be_too_long() -> None:
-    data = read_machine("reference")
-    assert check_machine(data, 0.1).numbers["stroke_m"] == 0.1
-    report = check_machine(data, 5.0)
-    assert report.numbers["locks"]
-    assert report.numbers["travel"][1] == pytest.approx(1.1128, abs=1e-4)
-    assert any("the linkage locks or opens there" in warning for warning in report.warnings)
-    with pytest.raises(InputError, match="no single actuator drives this machine"):
-        check_machine(read_machine("slider_crank"), 1.0)
 
 
 # --- faults that nobody would have noticed ---

@@ -1,4 +1,4 @@
-"""Joint forces and accelerations from motions, loads that are determined, contacts and drives at all records."""
+"""Joint forces and accelerations from motions, loads that are determined, contacts and drives at records."""
 
 from __future__ import annotations
 

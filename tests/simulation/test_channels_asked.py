@@ -74,7 +74,7 @@ def whole(scene: str) -> Result:
         for scene in SCENES
     ],
 )
-@settings(max_examples=8, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=4, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(data=st.data())
 def test_any_choice_has_the_numbers_of_all(scene: str, data: st.DataObject) -> None:
     full = whole(scene)

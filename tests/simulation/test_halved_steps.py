@@ -21,7 +21,6 @@ from support_exudyn import (
     UniformSpeed,
     simulate,
 )
-from support_exudyn.scenario.solver_settings import MOST_IMPACT_STEPS, SMALLEST_TOLERANCE
 from support_exudyn.scene.contract import Progress
 from support_exudyn.simulation import halved_steps
 from support_exudyn.simulation.estimate import disagreement
@@ -30,7 +29,6 @@ from support_exudyn.simulation.reported_numbers import measures
 from support_exudyn.simulation.single_run import single_run
 from tests.cases.run_cases import FORCE, PIN, loose_support
 from tests.formulations.test_formulations import SCENES
-from user_forces import InputError
 
 STEPS = SolverSettings(impact_steps=64)
 # the journal falls, bounces and falls again
@@ -221,20 +219,3 @@ def test_steps_that_are_too_long_are_halved_until_a_run_can_be_finished(
     begun = fail_first(monkeypatch, coarse, 100)
     assert simulate(FALL, errors=True, throw=False) == coarse
     assert len(begun) == MOST_RUNS
-
-
-def test_where_there_are_no_finer_settings_nothing_is_run(monkeypatch: pytest.MonkeyPatch) -> None:
-    begun: list[Scenario] = []
-
-    def run(scenario: Scenario, progress: Progress) -> Result:
-        begun.append(scenario)
-        raise AssertionError
-
-    monkeypatch.setattr(halved_steps, "single_run", run)
-    many = replace(FALL, solver=SolverSettings(impact_steps=MOST_IMPACT_STEPS // 4 + 1))
-    with pytest.raises(InputError, match=r"impact_steps = 1000\d: allowed: "):
-        simulate(many, errors=True)
-    small = SolverSettings(tolerance=63.0 * SMALLEST_TOLERANCE)
-    with pytest.raises(InputError, match=r"tolerance = 6\.3e-12: cannot be made finer twice.*from 6\.4e-12"):
-        simulate(replace(FALL, formulation="compiled", solver=small), errors=True)
-    assert not begun
