@@ -29,12 +29,10 @@ from tests.cases.run_cases import PIN, loose_support
 from tests.cases.spatial_cases import LENGTH, InSpace, contact
 from tests.user_forces.test_restitution import scenario
 from user_forces import (
-    AdamsImpact,
     Ambrosio,
     Exact,
     JournalBearing,
     JournalContact,
-    KelvinVoigt,
     LankaraniNikravesh,
     NormalLaw,
     value,
@@ -130,13 +128,7 @@ def bounce(law: NormalLaw, duration: float, **changes: Any) -> Result:
 
 LAWS = [
     Exact(stiffness=STIFFNESS, restitution=0.5),
-    pytest.param(Exact(stiffness=STIFFNESS, restitution=0.8), marks=pytest.mark.slow),
-    pytest.param(Exact(stiffness=STIFFNESS, restitution=0.05), marks=pytest.mark.slow),
     LankaraniNikravesh(stiffness=STIFFNESS, restitution=0.3, rest_velocity=1e-3),
-    pytest.param(KelvinVoigt(stiffness=1e7, damping=1e3), marks=pytest.mark.slow),
-    pytest.param(
-        AdamsImpact(stiffness=STIFFNESS, full_damping=1e4, full_damping_depth=2e-5), marks=pytest.mark.slow
-    ),
 ]
 
 

@@ -10,20 +10,17 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
-from tests.cases.law_cases import BEARING, FRICTION_LAWS, LUGRE, STATELESS_FRICTION, kind_of, power_law
+from tests.cases.law_cases import LUGRE, STATELESS_FRICTION, kind_of
 from tests.often import often
 from user_forces import (
     Ambrosio,
     BengisuAkay,
     BrownMcPhee,
     CubicCoulomb,
-    Exact,
     FrictionLaw,
     Frictionless,
     InputError,
-    JournalContact,
     LuGre,
-    SlipHistory,
     Stribeck,
     Threlfall,
 )
@@ -77,23 +74,6 @@ def test_friction_is_a_bounded_odd_continuous_share_of_the_normal_force_against_
     assert law.deflection_rate(1e-3, slip) == 0.0
     assert law.swing_time(1.0, 1e5) == math.inf
     assert not law.has_state
-
-
-@pytest.mark.parametrize("law", FRICTION_LAWS, ids=kind_of)
-def test_compiled_laws_give_the_same_to_the_bit(law: FrictionLaw) -> None:
-    random = np.random.default_rng(2)
-    count = 300
-    far, angle = BEARING.clearance + random.uniform(1e-7, 1e-4, count), random.uniform(-3.0, 3.0, count)
-    slow = 10.0 ** random.uniform(-5.0, 0.0, count)
-    motion = (far * np.cos(angle), far * np.sin(angle), *random.uniform(-1.0, 1.0, (2, count)) * slow)
-    rest = np.zeros(count), slow, np.ones(count), np.full(count, 0.1)
-    bristles = random.uniform(-3e-6, 3e-6, count), random.uniform(-0.1, 0.1, count), random.random(count) * 1e-4
-    rows = np.column_stack([*motion, *rest, *bristles])
-    contact = JournalContact(bearing=BEARING, normal=power_law(Exact), friction=law)
-    found, _ = contact.forces(rows)
-    for n, (*moving, _, speed, deflection, slip, step) in enumerate(rows.tolist()):
-        want = contact.force(*moving, speed, SlipHistory(deflection, slip, step))
-        assert tuple(column[n] for column in found) == want
 
 
 TWO = {"static_coefficient": 0.3, "sliding_coefficient": 0.2}

@@ -17,6 +17,7 @@ from tests.analytic import delivered_restitution as closed_form
 from tests.cases.law_cases import (
     BEARING,
     CYLINDER_LAWS,
+    FRICTION_LAWS,
     MODULUS,
     NORMAL_LAWS,
     POWER_LAWS,
@@ -125,15 +126,20 @@ def test_a_cycle_of_depth_never_gives_work(law: NormalLaw, share: float, speed: 
     assert work >= -2e-4 * max(forces) * deepest
 
 
-@every_law
-def test_compiled_laws_give_the_same_to_the_bit(law: NormalLaw) -> None:
-    random = np.random.default_rng(1)
-    count = 200
+CONTACTS = [
+    *(JournalContact(bearing=BEARING, normal=law) for law in LAWS),
+    *(JournalContact(bearing=BEARING, normal=power_law(Exact), friction=law) for law in FRICTION_LAWS),
+]
+
+
+@pytest.mark.parametrize("contact", CONTACTS, ids=lambda one: f"{kind_of(one.normal)}, {kind_of(one.friction)}")
+def test_compiled_laws_give_the_same_to_the_bit(contact: JournalContact) -> None:
+    random, law, count = np.random.default_rng(1), contact.normal, 200
     depth, angle = reach(law) * 10.0 ** random.uniform(-8.0, -1.5, count), random.uniform(-3.0, 3.0, count)
-    far = BEARING.clearance + depth
-    motion = (far * np.cos(angle), far * np.sin(angle), *random.uniform(-1.0, 1.0, (4, count)))
-    rows = np.column_stack([*motion, random.random(count) < 0.9, random.random(count), np.zeros((count, 3))])
-    contact = JournalContact(bearing=BEARING, normal=law)
+    far, slow = BEARING.clearance + depth, 10.0 ** random.uniform(-5.0, 0.0, count)  # laws bend at small slips
+    motion = (far * np.cos(angle), far * np.sin(angle), *slow * random.uniform(-1.0, 1.0, (4, count)))
+    bristles = random.uniform(-3e-6, 3e-6, count), random.uniform(-0.1, 0.1, count), random.random(count) * 1e-4
+    rows = np.column_stack([*motion, random.random(count) < 0.9, random.random(count), *bristles])
     found, stored = contact.forces(rows)
     for n, (*moving, closed, speed, deflection, slip, step) in enumerate(rows.tolist()):
         want = contact.force(*moving, speed if closed else None, SlipHistory(deflection, slip, step))
