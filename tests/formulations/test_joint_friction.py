@@ -35,7 +35,7 @@ from support_exudyn.postprocessing.pytest_plugin import AssertClose, SimulateCac
 from tests.cases.run_cases import support
 from tests.formulations.test_slots_and_gears import SPEED as YOKE_SPEED
 from tests.formulations.test_slots_and_gears import ScotchYoke
-from user_forces import Ambrosio, FrictionLaw, InputError, LuGre, value
+from user_forces import Ambrosio, FrictionLaw, LuGre, value
 
 MASS, INERTIA, G, RADIUS, MU = 50.0, 2.0, 9.81, 0.05, 0.3
 RUBBING = IdealPin(friction=Ambrosio(sliding_coefficient=MU), radius=RADIUS)
@@ -115,15 +115,6 @@ def test_energy_adds_up_with_friction_in_all_pins(
     more = fine["energy.work"][-1] - plain["energy.work"][-1]
     assert more == pytest.approx(fine["energy.friction_loss"][-1], rel=1e-4)
     assert_close(fine, plain, "1e-7 mm", channels=["tip.y"])  # the actuators' lengths say where
-
-
-def test_friction_and_radius_go_together() -> None:
-    assert IdealPin() == IdealPin(friction=None, radius=None)
-    for given in ({"radius": 0.1}, {"friction": Ambrosio(sliding_coefficient=0.1)}):
-        with pytest.raises(InputError, match=r"IdealPin: friction = .*allowed: both, or None for both"):
-            IdealPin(**given)
-    with pytest.raises(InputError, match=r"IdealPin\.radius = -1\.0: allowed: > 0"):
-        IdealPin(friction=Ambrosio(sliding_coefficient=0.1), radius=-1.0)
 
 
 # --- slider-crank, sled and slot ---

@@ -31,7 +31,6 @@ from tests.cases.run_cases import loose_support, support
 from tests.cases.spatial_cases import InSpace, observed
 from tests.roof_cases import ON_OIL
 from tests.roof_cases import OVER_THE_COLUMNS as OVER
-from user_forces import InputError
 
 TIP = (3.19590271431274, 1.95)  # of the reference support's canopy [m]
 INERTIA = (0.03, 0.05, 0.04, 0.0, 0.0, 0.0)
@@ -374,8 +373,3 @@ def test_a_settled_start_leaves_a_sloping_block_where_it_is(slope: float) -> Non
     blow = result.onsets["rock"][0]
     assert blow.time == pytest.approx(fall, rel=1e-9)
     assert blow.speed == pytest.approx(9.81 * fall * math.cos(slope), rel=1e-6)
-
-
-def test_a_block_on_one_of_two_is_refused() -> None:
-    with pytest.raises(InputError, match=r"loads\.rock\.body = 'front_link': there are two of it in space"):
-        loose_support(dimensions=3, loads={"rock": block(body="front_link", point=TIP)})

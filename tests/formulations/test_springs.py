@@ -27,7 +27,7 @@ from support_exudyn import (
 )
 from support_exudyn.scenario.timescales import timescales
 from tests.linkage_cases import CrankRocker
-from user_forces.values.value import InputError, Vector2, value
+from user_forces.values.value import Vector2, value
 
 MASS, INERTIA = 3.0, 0.2
 ROCKER = CrankRocker(angle=0.3, speed=10.0)
@@ -189,13 +189,3 @@ def test_a_support_settles_with_a_spring_between_two_bodies() -> None:
     for body in ("canopy", "shield"):
         assert np.abs(result[f"{body}.angular_velocity"]).max() < 1e-8
     assert result["spring.force"][0] == pytest.approx(-2e5 * result["spring.length"][0], rel=1e-9)
-
-
-def test_loads_that_do_not_fit_the_machine_are_refused() -> None:
-    scene = Scenario(machine=CrankRocker(), duration=0.1)
-    with pytest.raises(InputError, match=r"loads\.m\.other = 'wheel': no such body; allowed: ground, crank"):
-        replace(scene, loads={"m": TorsionSpring(body="rocker", other="wheel", stiffness=1.0)})
-    with pytest.raises(InputError, match=r"machine\.loads\.spring\.body = 'wheel': no such body"):
-        replace(scene, machine=CrankRocker(springs={"spring": replace(SPRING, body="wheel")}))
-    with pytest.raises(InputError, match=r"loads\.spring: the machine has something of this name"):
-        replace(scene, machine=FREE, loads={"spring": SPRING})

@@ -27,9 +27,6 @@ from user_forces import (
 )
 
 LAWS = list(POWER_LAWS)
-ASKED = [n / 20 for n in range(1, 20)]  # e = 0.05, 0.1 ... 0.95
-FEW = ASKED[::9]  # 0.05, 0.5 and 0.95
-OTHERS = sorted({*ASKED} - {*FEW})
 LONGEST = 10.0  # contact times of an undamped impact within which every law here has let go
 
 
@@ -67,12 +64,9 @@ def delivered(result: Result) -> float:
     return float(separation / result.scenario.machine.speed)
 
 
-@pytest.mark.parametrize(
-    "values", [pytest.param(FEW, id="few"), pytest.param(OTHERS, id="others", marks=pytest.mark.slow)]
-)
 @pytest.mark.parametrize("law", LAWS)
-def test_every_law_delivers_its_closed_form(law: type[Any], values: list[float]) -> None:
-    for asked in values:
+def test_every_law_delivers_its_closed_form(law: type[Any]) -> None:
+    for asked in (0.05, 0.5, 0.95):
         chosen = law(stiffness=1e8, restitution=asked)
         expected = delivered_restitution(chosen.factor(asked))
         # asked for: 1e-4; the default of 512 steps an impact leaves 6e-6
