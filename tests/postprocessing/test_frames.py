@@ -11,11 +11,10 @@ from PIL import Image
 from PIL.ImageColor import getrgb
 
 from support_exudyn import Result
-from support_exudyn.postprocessing.figures.selection import nearest
 from support_exudyn.postprocessing.figures.style import CONTACT, FLIGHT
 from support_exudyn.postprocessing.render.canvas import Canvas
 from support_exudyn.postprocessing.render.frame import JOURNAL, RING, Inset
-from support_exudyn.postprocessing.render.pin_views import Bore, PinView, pin_views
+from support_exudyn.postprocessing.render.pin_views import PinView, pin_views
 from tests import synthetic
 from tests.cases.run_cases import PIN, loose_support
 
@@ -50,14 +49,6 @@ def view(*arguments: Any) -> PinView:
     return found
 
 
-# --- which records ---
-
-
-def test_a_frame_shows_the_record_next_to_it() -> None:
-    found = nearest(np.array([0.0, 1.0, 2.0, 4.0]), np.array([0.0, 0.4, 0.6, 1.6, 2.9, 3.1, 4.0]))
-    assert found.tolist() == [0, 0, 1, 2, 2, 3, 3]
-
-
 # --- the journal and the force on it ---
 
 
@@ -66,10 +57,9 @@ def test_the_force_is_that_on_the_journal(bore: str, sign: float, carrier: str) 
     found = view(1e-3, 0.5e-3, (300.0, -400.0), bore)
     assert found.force[0] == pytest.approx([sign * 300.0, sign * -400.0])
     assert found.size[0] == pytest.approx(500.0)
-    assert found.bore is not None
-    assert found.bore.carrier == carrier
-    assert found.bore.eccentricity[0] == pytest.approx([1e-3, 0.5e-3])
-    assert found.bore.closed.all()
+    assert found.pin.bore.body == carrier
+    assert found.eccentricity[0] == pytest.approx([1e-3, 0.5e-3])
+    assert found.closed.all()
     # it is where the bore is: with the ground, or with the link, which moves forward by 1 m
     assert found.path[-1] - found.path[0] == pytest.approx([float(bore == "second"), 0.0, 0.0])
 
@@ -77,19 +67,13 @@ def test_the_force_is_that_on_the_journal(bore: str, sign: float, carrier: str) 
 BOX = (0, 0, 286, 286)
 
 
-def inset_of(bore: Bore, record: int, force: tuple[float, float] = (0.0, 0.0)) -> tuple[Image.Image, Inset]:
-    """The inset at a record."""
-    sheet = Canvas(286, 286)
-    found = Inset(sheet, BOX, bore, 1.0)
-    sheet.hold()
-    found.draw(record, 0, force)
-    return Image.fromarray(sheet.frame()), found
-
-
 def drawn(shown: PinView, force: tuple[float, float] = (0.0, 0.0)) -> tuple[Inset, Image.Image]:
     """The inset at record 0, with an arrow [pixels]."""
-    assert shown.bore is not None
-    picture, found = inset_of(shown.bore, 0, force)
+    sheet = Canvas(286, 286)
+    found = Inset(sheet, BOX, shown, 1.0)
+    sheet.hold()
+    found.draw(0, 0, force)
+    picture = Image.fromarray(sheet.frame())
     picture.paste("#ffffff", (180, 262, 286, 286))  # the word in the corner, of the same colour
     return found, picture
 

@@ -5,25 +5,22 @@ from __future__ import annotations
 import subprocess
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import pytest
 import trimesh
 from PIL import Image
-from PIL.ImageColor import getrgb
 
 from studies.common.paper_machine import clearance_rise, ideal_rise
 from support_exudyn import CubicStep, Held, Result, simulate
 from support_exudyn.__main__ import main
 from support_exudyn.model.loads.roofs import Roof
 from support_exudyn.postprocessing.export.meshes import machine_mesh
-from support_exudyn.postprocessing.figures.style import CONTACT, FLIGHT
 from support_exudyn.postprocessing.render import render, still
 from support_exudyn.postprocessing.render.canvas import INK, Canvas
-from support_exudyn.postprocessing.render.frame import Layout
 from support_exudyn.postprocessing.render.scene import RenderedScene
-from support_exudyn.postprocessing.render.stage import Camera, MeshItem, Picture, Stage, direction_of_view
+from support_exudyn.postprocessing.render.stage import Camera, MeshItem, Stage, direction_of_view
 from user_forces import InputError
 
 SIZE = (320, 180)
@@ -37,25 +34,8 @@ def bouncing() -> Result:
 
 
 @pytest.fixture(scope="module")
-def rising() -> Result:
-    """Ideal pins, 0.3 m in 0.3 s."""
-    return simulate(replace(ideal_rise(1e-3), drive=CubicStep(stroke=0.3, start=0.0, end=0.3), duration=0.3))
-
-
-@pytest.fixture(scope="module")
 def spatial() -> Result:
     return simulate(replace(clearance_rise(1.5, 0.25, 1e-3), dimensions=3, duration=0.05))
-
-
-def part(picture: Picture, size: tuple[int, int]) -> Picture:
-    """That with the machine."""
-    left, top, right, bottom = Layout(*size, True).picture
-    return picture[top:bottom, left:right]
-
-
-def pixels_of(picture: Picture, colour: str) -> np.ndarray:
-    """Rows and columns of the pixels that have just this colour."""
-    return np.argwhere((picture == np.array(getrgb(colour))).all(axis=-1))
 
 
 # --- what is seen ---
@@ -64,7 +44,7 @@ def pixels_of(picture: Picture, colour: str) -> np.ndarray:
 def test_the_camera_sees_points_where_the_ray_tracer_draws_them() -> None:
     size = (320, 180)
     camera = Camera(direction_of_view(), (0.3, 0.2, -0.4), 4.0, *size)
-    cube = MeshItem(trimesh.creation.box((0.05, 0.05, 0.05)), (1.0, 0.0, 0.0), edges=False)
+    cube = MeshItem(trimesh.creation.box((0.05, 0.05, 0.05)), (1.0, 0.0, 0.0))
     stage = Stage([cube], camera)
     for point in ((0.3, 0.2, -0.4), (1.0, 0.2, 0.0), (0.0, 1.0, 0.0), (0.3, 0.0, 0.7)):
         picture = stage.image([(np.array(point), np.eye(3))]).astype(int)
@@ -73,15 +53,6 @@ def test_the_camera_sees_points_where_the_ray_tracer_draws_them() -> None:
         assert (columns.mean() + 0.5, rows.mean() + 0.5) == pytest.approx(
             camera.pixels(np.array([point]))[0], abs=0.5
         )
-
-
-def test_the_machine_moves_and_the_camera_does_not(rising: Result) -> None:
-    first, last = (part(still(rising, t, size=SIZE), SIZE).astype(int) for t in (0.0, 0.3))
-    changed = np.abs(first - last).max(axis=-1) > 30
-    assert changed.mean() > 0.05
-    edge = round(0.06 * changed.shape[1])
-    assert not changed[:, :edge].any()  # the coal face
-    assert not changed[-12:].any()  # the floor in front of the machine
 
 
 def test_a_roof_that_presses_is_drawn_where_it_is() -> None:
@@ -102,21 +73,6 @@ def test_a_roof_that_presses_is_drawn_where_it_is() -> None:
     assert scene.surroundings is not None
 
 
-def test_the_arrow_is_there_in_contact_and_not_in_flight(bouncing: Result) -> None:
-    force = bouncing[f"pin.{WITH_CLEARANCE}.force"]
-    size = (640, 360)
-    hit, flight = float(bouncing.time[force.argmax()]), float(bouncing.time[3])
-    assert force[3] == 0.0
-    closed, flying = (
-        part(still(bouncing, hit, size=size), size),
-        part(still(bouncing, flight, size=size), size),
-    )
-    assert len(pixels_of(closed, CONTACT)) > 100
-    assert not len(pixels_of(flying, CONTACT))
-    assert len(pixels_of(flying, FLIGHT)) > 10
-    assert not len(pixels_of(closed, FLIGHT))
-
-
 def test_surfaces_are_put_where_the_exported_mesh_has_them(bouncing: Result, spatial: Result) -> None:
     for run in (bouncing, spatial):
         scene, record = RenderedScene(run), run.time.size - 1
@@ -129,28 +85,17 @@ def test_surfaces_are_put_where_the_exported_mesh_has_them(bouncing: Result, spa
         assert np.concatenate(placed)[: len(expected)] == pytest.approx(expected, abs=1e-12)
 
 
-class Arrow(NamedTuple):
-    """As it was asked for."""
-
-    tail: np.ndarray
-    tip: np.ndarray
-
-    @property
-    def way(self) -> np.ndarray:
-        return self.tip - self.tail
-
-
 def painted(
     run: Result, time: float, size: tuple[int, int], monkeypatch: pytest.MonkeyPatch
-) -> tuple[list[Arrow], list[str]]:
+) -> tuple[list[np.ndarray], list[str]]:
     """Arrows and words of a still: arrows of the scale, in the machine, in the bore; not that of "forward"."""
-    arrows: list[Arrow] = []
+    arrows: list[np.ndarray] = []
     words: list[str] = []
     drawn, written = Canvas.arrow, Canvas.write
 
     def arrow(sheet: Canvas, tail: Any, tip: Any, colour: str, thick: float) -> None:
         if colour != INK:
-            arrows.append(Arrow(np.array(tail), np.array(tip)))
+            arrows.append(np.subtract(tip, tail))
         drawn(sheet, tail, tip, colour, thick)
 
     def write(sheet: Canvas, place: Any, text: str, *rest: Any, **others: Any) -> Any:
@@ -176,11 +121,11 @@ def test_arrows_are_the_force_on_the_journal_in_the_scale_that_is_shown(
         bouncing[f"pin.{WITH_CLEARANCE}.force_{axis}"][record] for axis in "xy"
     )  # on the link, which has the journal
     (bar,) = (float(word.removesuffix(" kN")) for word in words if word.endswith(" kN") and "." not in word)
-    pixels = scale.way[0] / (1e3 * bar)  # to a newton
-    assert scale.way[1] == 0.0
-    assert bore.way == pytest.approx([pixels * x, -pixels * y])  # forward is to the right
+    pixels = scale[0] / (1e3 * bar)  # to a newton
+    assert scale[1] == 0.0
+    assert bore == pytest.approx([pixels * x, -pixels * y])  # forward is to the right
     view = direction_of_view().apply([x, y, 0.0])
-    assert machine.way == pytest.approx([pixels * view[0], -pixels * view[1]])
+    assert machine == pytest.approx([pixels * view[0], -pixels * view[1]])
     assert f"{force[record] / 1e3:.1f} kN" in words
     assert f"t = {bouncing.time[record]:.3f} s" in words
     assert "the arrow is cut short" not in words
@@ -230,10 +175,8 @@ def test_an_mp4_has_all_frames(bouncing: Result, tmp_path: Path) -> None:
     ("wrong", "said"),
     [
         ({"frames_per_second": 0.0}, "frames_per_second = 0"),
-        ({"frames_per_second": 60.0}, "of a GIF"),
-        ({"speed": 1e-6}, "frames from"),
+        ({"frames_per_second": 60.0}, "of a GIF up to"),
         ({"after": -1.0}, "after = -1 s: allowed: 0 to 0.2 s"),
-        ({"until": 9.0}, "until = 9 s: allowed: 0 to 0.2 s"),
         ({"after": 0.1, "until": 0.05}, "later than"),
         ({"movie": "avi"}, "'avi': allowed: gif, mp4, none"),
         ({"size": (321, 180)}, "width = 321"),

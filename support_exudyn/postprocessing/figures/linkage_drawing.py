@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 from matplotlib.patheffects import withStroke
-from scipy.spatial import ConvexHull, QhullError
+from shapely.geometry import MultiPoint
 
 from support_exudyn.machines.slider_crank import SliderCrank
 from support_exudyn.mechanics.kinetics import kinetics_of
@@ -23,7 +23,7 @@ from support_exudyn.model.loads.springs import SpringDamper
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.figures.selection import as_words, machine_name
 from support_exudyn.postprocessing.figures.style import CURVES, Dashes
-from support_exudyn.postprocessing.look.poses import named_ends
+from support_exudyn.postprocessing.look.poses import joined_points
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.value import InputError, Vector2, short
 
@@ -91,9 +91,9 @@ class LinkageDrawing:
         reached: Sequence[Series],
     ) -> None:
         self.axes, self.linkage, self.blocks, self.reached = axes, linkage, blocks, reached
-        self._kinetics, self._joints = kinetics_of(linkage), joined_points(linkage)
-        everything = [self.at(reached[0], body, one) for body, points in self._joints.items() for one in points]
-        self._size = max(float(np.ptp(np.array(everything), axis=0).max()), 1e-6)  # [mm]
+        self._kinetics, self._joints = kinetics_of(linkage), _drawn_points(linkage)
+        everything = np.concatenate([self._corners(reached[0], body) for body in self._joints])
+        self._size = max(float(np.ptp(everything, axis=0).max()), 1e-6)  # [mm]
         axes.set(xlabel="x [mm]", ylabel="y [mm]")
         axes.set_aspect("equal", adjustable="datalim")
         axes.margins(0.08)
@@ -104,10 +104,19 @@ class LinkageDrawing:
         place: Series = 1e3 * self._kinetics.point(position, body, point)[0]
         return place
 
+    def _corners(self, position: Series, body: str) -> Series:
+        """The places of all points of a body (n, 2) [mm]."""
+        points = dict.fromkeys(self._joints[body])
+        return np.reshape([self.at(position, body, point) for point in points], (-1, 2))
+
+    def _ends(self, name: str, position: Series) -> Series:
+        """Foot and head of an actuator (2, 2) [mm]."""
+        one = self.linkage.actuators[name]
+        ends = ((one.foot, one.foot_point), (one.head, one.head_point))
+        return np.array([self.at(position, *end) for end in ends])
+
     def _line(self, places: Sequence[Series] | Series, **look: Any) -> None:
-        """A line through places [mm]."""
-        x, y = np.transpose(places)
-        self.axes.plot(x, y, **look)
+        self.axes.plot(*np.transpose(places), **look)
 
     def _write(self, text: str, place: Series, offset: tuple[float, float], **look: Any) -> None:
         """A text next to a place [mm], offset in points."""
@@ -132,20 +141,16 @@ class LinkageDrawing:
         layer = 4.0 if strong else 2.5
         for name in self.linkage.slides:
             self._guide(name, position, colour, strong)
-        for body, points in self._joints.items():
-            if body != GROUND:
-                corners = _hull(np.array([self.at(position, body, point) for point in dict.fromkeys(points)]))
-                if len(corners) > 2:
-                    fill = {"fc": colour, "alpha": 0.12 if strong else 0.04}
-                    self.axes.add_patch(Polygon(corners, closed=True, lw=0, zorder=layer - 1, **fill))
-                    corners = np.vstack([corners, corners[:1]])
-                mark = {"marker": "x", "ms": 5} if len(corners) == 1 else {}  # joined to nothing
-                self._line(corners, ls=dashes, lw=1.8 if strong else 0.9, zorder=layer, **pale, **mark)
-        for one in self.linkage.actuators.values():  # a thick cylinder and a thin rod
-            foot, head = (
-                self.at(position, one.foot, one.foot_point),
-                self.at(position, one.head, one.head_point),
-            )
+        for body in self.linkage.bodies:
+            corners = _hull(self._corners(position, body))
+            if len(corners) > 2:
+                fill = {"fc": colour, "alpha": 0.12 if strong else 0.04}
+                self.axes.add_patch(Polygon(corners, closed=True, lw=0, zorder=layer - 1, **fill))
+                corners = np.vstack([corners, corners[:1]])
+            mark = {"marker": "x", "ms": 5} if len(corners) == 1 else {}  # joined to nothing
+            self._line(corners, ls=dashes, lw=1.8 if strong else 0.9, zorder=layer, **pale, **mark)
+        for name in self.linkage.actuators:  # a thick cylinder and a thin rod
+            foot, head = self._ends(name, position)
             middle = foot + 0.55 * (head - foot)
             for part, width in (((foot, middle), 3.6), ((middle, head), 1.4)):
                 thick = width if strong else 0.6 * width
@@ -157,21 +162,12 @@ class LinkageDrawing:
         """Pins, ends of actuators, and triangles on hatched lines where the ground carries something."""
         linkage, size = self.linkage, SUPPORT * self._size
         ends = [(pin.second, pin.second_point) for pin in linkage.pins.values()]
-        for one in linkage.actuators.values():
-            ends += [(one.foot, one.foot_point), (one.head, one.head_point)]
         ends += [(slide.body, slide.point) for slide in linkage.slides.values() if slide.turns]
         places = [self.at(position, *end) for end in ends]
-        self._line(
-            np.reshape(places, (-1, 2)),
-            marker="o",
-            ms=4.5,
-            mfc="white",
-            mec=colour,
-            mew=1.0,
-            ls="none",
-            zorder=6,
-        )
-        for x, y in {tuple(self.at(position, GROUND, one).tolist()) for one in self._joints[GROUND]}:
+        places += [end for name in linkage.actuators for end in self._ends(name, position)]
+        circle: dict[str, Any] = {"marker": "o", "ms": 4.5, "mfc": "white", "mec": colour, "mew": 1.0}
+        self._line(np.reshape(places, (-1, 2)), ls="none", zorder=6, **circle)
+        for x, y in self._corners(position, GROUND):
             foot = y - 1.3 * size
             grey: dict[str, Any] = {"color": GREY, "zorder": 3}
             corners = [(x, y), (x - 0.8 * size, foot), (x + 0.8 * size, foot)]
@@ -187,7 +183,7 @@ class LinkageDrawing:
         unknown = 2e-3 * BLOCK[0] * self._size, 2e-3 * BLOCK[1] * self._size
         length, height = (0.5e3 * side for side in self.blocks.get(name, unknown))
         if strong:
-            origin, used = self.at(position, slide.against, slide.point), list(self._used(name))
+            origin, used = self.at(position, slide.against, slide.point), self._used(name)
             low, high = min(used) - 2.0 * length, max(used) + 2.0 * length
             off = 0.5 * height if slide.turns else height
             for side in (-off, off):
@@ -208,39 +204,39 @@ class LinkageDrawing:
         turn = 0.0 if slide.against == GROUND else position[self._kinetics.first(slide.against) + 2]
         return np.array([math.cos(slide.direction + turn), math.sin(slide.direction + turn)])
 
-    def _used(self, name: str) -> Iterator[float]:
+    def _used(self, name: str) -> list[float]:
         """Where along its guide something stands in all postures, from its place at the start [mm]."""
         slide = self.linkage.slides[name]
-        for position in self.reached:
-            ends = (self.at(position, body, slide.point) for body in (slide.body, slide.against))
-            yield float(np.subtract(*ends) @ self._direction(name, position))
+        apart = (
+            np.subtract(*(self.at(position, body, slide.point) for body in (slide.body, slide.against)))
+            for position in self.reached
+        )
+        return [float(way @ self._direction(name, one)) for way, one in zip(apart, self.reached, strict=True)]
 
     # --- names ---
 
     def pin_names(self, position: Series) -> None:
         """The names of pins at their places; of several pins at one place together."""
-        together: dict[tuple[int, int], list[str]] = {}
-        places: dict[tuple[int, int], Series] = {}
+        together: dict[tuple[float, ...], list[str]] = {}
         for name, pin in self.linkage.pins.items():
+            near = np.round(self.at(position, pin.second, pin.second_point) / (0.02 * self._size))
+            together.setdefault(tuple(near.tolist()), []).append(name)
+        for names in together.values():
+            pin, words = self.linkage.pins[names[0]], ", ".join(map(as_words, names))
             place = self.at(position, pin.second, pin.second_point)
-            near = round(place[0] / (0.02 * self._size)), round(place[1] / (0.02 * self._size))
-            together.setdefault(near, []).append(as_words(name))
-            places.setdefault(near, place)
-        for near, names in together.items():
-            self._write(", ".join(names), places[near], (4, 5), fontsize=7.5, zorder=7, path_effects=HALO)
+            self._write(words, place, (4, 5), fontsize=7.5, zorder=7, path_effects=HALO)
 
     def names(self, position: Series) -> None:
         """The names of bodies on them, and of actuators along them."""
         blocks = {one.body for one in self.linkage.slides.values() if not one.turns}
-        for name, points in self._joints.items():
-            corners = np.array([self.at(position, name, one) for one in dict.fromkeys(points)])
+        for name in self.linkage.bodies:
+            corners = self._corners(position, name)
             if name in blocks:
                 self._word(corners[:1], name)
-            elif name != GROUND and (len(corners) == 1 or np.ptp(corners, axis=0).max() > SMALL * self._size):
+            elif len(corners) == 1 or np.ptp(corners, axis=0).max() > SMALL * self._size:
                 self._word(_hull(corners), name)
-        for name, one in self.linkage.actuators.items():
-            ends = ((one.foot, one.foot_point), (one.head, one.head_point))
-            self._word(np.array([self.at(position, *end) for end in ends]), name)
+        for name in self.linkage.actuators:
+            self._word(self._ends(name, position), name)
 
     def mark(self, position: Series, name: str, colour: str, more: str) -> None:
         """A ring around a pin, whose name and more words stand in the legend."""
@@ -287,12 +283,14 @@ class LinkageDrawing:
             self._word(np.array([tail, end]), name)
 
 
-def joined_points(linkage: Linkage) -> dict[str, list[Vector2]]:
-    """The points of each body, and of the ground, at which something is joined or traced, start posture [m]."""
-    joints: dict[str, list[Vector2]] = {name: [] for name in (GROUND, *linkage.bodies)}
-    slides = [(slide.body, slide.point) for slide in linkage.slides.values()]
-    for name, (x, y) in (*((body, point) for _, body, point in named_ends(linkage)), *slides):
-        joints[name].append((x, y))
+def _drawn_points(linkage: Linkage) -> dict[str, list[Vector2]]:
+    """The points of each body, and of the ground, at which something is joined or traced, start posture [m].
+
+    Of a body with fewer than two and without a guide the centre of mass, too.
+    """
+    joints = joined_points(linkage)
+    for slide in linkage.slides.values():
+        joints[slide.body].append(slide.point)
     for name, body in linkage.bodies.items():
         if len(set(joints[name])) < 2 and not any(one.body == name for one in linkage.slides.values()):
             joints[name].append(body.centre)
@@ -301,11 +299,6 @@ def joined_points(linkage: Linkage) -> dict[str, list[Vector2]]:
 
 def _hull(places: Series) -> Series:
     """Corners around points (n, 2); the farthest two if they lie in line."""
-    try:
-        corners: Series = places[ConvexHull(places).vertices] if len(places) > 2 else places
-    except QhullError:
-        along = places - places[0]
-        far = along[int(np.argmax(np.hypot(*along.T)))]
-        order = np.argsort(along @ far)
-        corners = places[[order[0], order[-1]]]
+    shape = MultiPoint(places).convex_hull
+    corners: Series = np.array(shape.exterior.coords[:-1] if shape.geom_type == "Polygon" else shape.coords)
     return corners

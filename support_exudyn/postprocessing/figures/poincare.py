@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -15,7 +15,7 @@ from support_exudyn.postprocessing.figures.journal import JournalPath, Mask, Ser
 from support_exudyn.postprocessing.figures.orbit import bore_axes
 from support_exudyn.postprocessing.figures.selection import CLEARANCE, as_words, inside, spacing, window_text
 from support_exudyn.postprocessing.figures.style import caption
-from support_exudyn.postprocessing.figures.units import DEGREES, DisplayUnit, readable
+from support_exudyn.postprocessing.figures.units import DEGREES, readable
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError, short
@@ -27,16 +27,7 @@ CONTACT_MARK = {**DOT, "color": style.CONTACT}
 FLIGHT_MARK = {**DOT, "color": style.FLIGHT, "marker": "^", "ms": 4.0}
 PLAIN_MARK = {**DOT, "color": style.IDEAL}
 BELOW: dict[str, Any] = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.19), "fontsize": 7}  # a legend
-NARROW = 0.01  # share of its size below which only the spread of a channel is shown
-SAME = 1e-4  # ... and below which all points are shown as the same
-
-
-class PoincareSection(NamedTuple):
-    """Two channels at equal phases of the drive: times (n,) [s], values of both (n,), SI."""
-
-    time: Series
-    first: Series
-    second: Series
+SAME = 1e-4  # share of the size of a channel; points closer than that are shown as the same
 
 
 def period(scenario: Scenario) -> float | None:
@@ -76,22 +67,6 @@ def periodic_times(result: Result, phase: float = 0.0, after: float = 0.0, until
     return np.clip((np.arange(math.ceil(low), math.floor(high) + 1) + phase) * length, first, last)
 
 
-def stroboscopic(
-    result: Result, first: str, second: str, phase: float = 0.0, after: float = 0.0, until: float = math.inf
-) -> PoincareSection:
-    """Two channels once in every period of the drive, straight between records.
-
-    Raises InputError if the drive is not periodic, KeyError if there is no such channel.
-    """
-    times = periodic_times(result, phase, after, until)
-    if not times.size:
-        raise InputError(
-            "a section once in every period: the drives have no common period, or none begins in the chosen "
-            "piece; allowed: steady cranks and reciprocating drives"
-        )
-    return PoincareSection(times, *(np.interp(times, result.time, result[name]) for name in (first, second)))
-
-
 def poincare(
     result: Result,
     pin: str | None = None,
@@ -119,57 +94,20 @@ def poincare(
     inside(result, after, until)
     if channels and len(channels) != 2:
         raise InputError(f"channels = {short(list(channels))}: allowed for a section: two names")
-    times = periodic_times(result, phase, after, until)
-    if times.size >= FEWEST_PERIODS:
-        return _by_period(result, pin, (phase, after, until), channels)
-    if channels:
-        raise InputError(
-            f"channels of a section: {times.size} periods of the drive lie in the chosen piece of the run; "
-            f"allowed: {FEWEST_PERIODS} and more, of a drive with a period"
-        )
-    return _by_impact(result, journal(result, pin, after, until), window_text(result, after, until))
-
-
-# --- once in a period ---
-
-
-def _by_period(
-    result: Result, pin: str | None, window: tuple[float, float, float], channels: Sequence[str]
-) -> Figure:
-    """window: phase, and the times between which the run is drawn [s]."""
-    phase, after, until = window
+    times, window = periodic_times(result, phase, after, until), window_text(result, after, until)
+    if times.size < FEWEST_PERIODS:
+        if channels:
+            raise InputError(
+                f"channels of a section: {times.size} periods of the drive lie in the chosen piece of the run; "
+                f"allowed: {FEWEST_PERIODS} and more, of a drive with a period"
+            )
+        return _by_impact(journal(result, pin, after, until), window, period(result.scenario) is None)
     shown = journal(result, pin, after, until) if pin is not None or clearance_joints(result) else None
-    pair = tuple(channels) or _pair(result, shown.pin if shown else None)
-    if shown is None and not pair:
-        raise InputError("a section: the run has neither a clearance pin nor a moving body on record")
-    of = f", {as_words(shown.pin)}" if shown is not None else ""
-    title = f"Poincaré section once in a period{of}, {window_text(result, after, until)}"
-    drawing = style.begin(170, 95 if shown else 110, title)
-    panels = drawing.subplots(1, bool(shown) + bool(pair), squeeze=False)[0]
-    closed: Mask | None = None
-    if shown is not None:
-        x, y, depth = (f"pin.{shown.pin}.{what}" for what in ("eccentricity_x", "eccentricity_y", "depth"))
-        places = stroboscopic(result, x, y, *window)
-        closed = np.interp(places.time, result.time, result[depth]) > 0.0
-        unit = readable("m", max(shown.clearance, float(np.hypot(places.first, places.second).max())))
-        bore_axes(panels[0], shown.clearance, places.first, places.second, unit)
-        _marked(panels[0], unit.scale * places.first, unit.scale * places.second, closed)
-        panels[0].legend(ncols=3, **BELOW)
-        panels[0].set_title("a) journal's centre in its bore")
-    if pair:
-        section = stroboscopic(result, pair[0], pair[1], *window)
-        (x_values, x_name), (y_values, y_name) = (
-            _readable_spread(name, values, result.unit(name))
-            for name, values in zip(pair, (section.first, section.second), strict=True)
-        )
-        _marked(panels[-1], x_values, y_values, closed)
-        panels[-1].set(xlabel=x_name, ylabel=y_name, xlim=_widened(x_values), ylim=_widened(y_values))
-        panels[-1].locator_params(nbins=4)
-        panels[-1].set_title("b) two channels" if shown is not None else "two channels")
-    count, length = periodic_times(result, *window).size, period(result.scenario) or 0.0
+    drawing = _by_period(result, times, shown, tuple(channels) or _pair(result, shown), window)
     caption(
         drawing,
-        f"{count} points, one in each period of the drive ({units.amount(length, 's', 4)}) at {phase:g} of it; "
+        f"{times.size} points, one in each period of the drive "
+        f"({units.amount(period(result.scenario) or 0.0, 's', 4)}) at {phase:g} of it; "
         f"values straight between records, which lie {units.amount(spacing(result), 's')} apart. A motion that "
         "repeats in every period is one point, in every second two points; a cloud is irregular motion, or one "
         "that has not settled yet (a later start of the piece leaves that out).",
@@ -177,32 +115,51 @@ def _by_period(
     return drawing
 
 
-def _pair(result: Result, pin: str | None) -> tuple[str, ...]:
+def _by_period(
+    result: Result, times: Series, shown: JournalPath | None, pair: tuple[str, ...], window: str
+) -> Figure:
+    """The journal in its bore and two channels, at times [s]; window: the piece of the run in words."""
+    if shown is None and not pair:
+        raise InputError("a section: the run has neither a clearance pin nor a moving body on record")
+    of = f", {as_words(shown.pin)}" if shown is not None else ""
+    drawing = style.begin(170, 95 if shown else 110, f"Poincaré section once in a period{of}, {window}")
+    panels = drawing.subplots(1, bool(shown) + bool(pair), squeeze=False)[0]
+    closed: Mask | None = None
+    if shown is not None:
+        x, y, depth = (np.interp(times, shown.time, values) for values in (shown.x, shown.y, shown.depth))
+        closed = depth > 0.0
+        unit = readable("m", max(shown.clearance, float(np.hypot(x, y).max())))
+        bore_axes(panels[0], shown.clearance, x, y, unit)
+        _marked(panels[0], unit.scale * x, unit.scale * y, closed)
+        panels[0].legend(ncols=3, **BELOW)
+        panels[0].set_title("a) journal's centre in its bore")
+    if pair:
+        values, labels, limits = [], [], []
+        for name in pair:
+            found = np.interp(times, result.time, result[name])
+            unit = readable(result.unit(name), float(np.abs(found).max()))
+            values.append(unit.scale * found)
+            labels.append(f"{name} [{unit.name}]")
+            low, high = float(values[-1].min()), float(values[-1].max())
+            margin = max(0.08 * (high - low), SAME * max(abs(low), abs(high)))
+            limits.append((low - margin, high + margin))
+        _marked(panels[-1], *values, closed)
+        panels[-1].set(xlabel=labels[0], ylabel=labels[1], xlim=limits[0], ylim=limits[1])
+        panels[-1].ticklabel_format(useOffset=True)  # of a channel that hardly changes
+        panels[-1].locator_params(nbins=4)
+        panels[-1].set_title("b) two channels" if shown is not None else "two channels")
+    return drawing
+
+
+def _pair(result: Result, shown: JournalPath | None) -> tuple[str, ...]:
     """Two channels that a section is made of, by what the machine is; none if they were not recorded."""
     linkage = result.scenario.linkage
     candidates = [(f"{s.body}.x", f"{s.body}.velocity_x") for s in linkage.slides.values()]
-    places = [linkage.pins[pin]] if pin is not None and pin in linkage.pins else list(linkage.pins.values())
+    known = shown is not None and shown.pin in linkage.pins
+    places = [linkage.pins[shown.pin]] if shown is not None and known else list(linkage.pins.values())
     bodies = [body for place in places for body in (place.second, place.first) if body != GROUND]
     candidates += [(f"{body}.angle", f"{body}.angular_velocity") for body in bodies]
     return next((pair for pair in candidates if all(name in result.channels for name in pair)), ())
-
-
-def _readable_spread(name: str, values: Series, unit: str) -> tuple[Series, str]:
-    """Values in the unit of their spread, from their middle if that is far larger than the spread."""
-    size, spread = float(np.abs(values).max()), float(np.ptp(values))
-    if not SAME * size < spread < NARROW * size:
-        chosen = readable(unit, size)
-        return chosen.scale * values, f"{name} [{chosen.name}]"
-    middle = 0.5 * float(values.max() + values.min())
-    chosen, at = readable(unit, spread), readable(unit, size)
-    return chosen.scale * (values - middle), f"{name},\nfrom {at.scale * middle:.6g} {at.name} [{chosen.name}]"
-
-
-def _widened(values: Series) -> tuple[float, float]:
-    """Limits of an axis; around values that are all the same, so far apart that its ticks differ."""
-    low, high = float(values.min()), float(values.max())
-    margin = max(0.08 * (high - low), 0.01 * NARROW * max(abs(low), abs(high)))
-    return low - margin, high + margin
 
 
 def _marked(axes: Axes, x: Series, y: Series, closed: Mask | None) -> None:
@@ -214,11 +171,8 @@ def _marked(axes: Axes, x: Series, y: Series, closed: Mask | None) -> None:
             axes.plot(x[chosen], y[chosen], label=label, **mark)
 
 
-# --- at every impact ---
-
-
-def _by_impact(result: Result, shown: JournalPath, window: str) -> Figure:
-    """window: the piece of the run in words."""
+def _by_impact(shown: JournalPath, window: str, no_period: bool) -> Figure:
+    """Direction and velocity of impacts, and from impact to impact; window: the piece of the run in words."""
     if len(shown.impacts) < FEWEST_IMPACTS:
         why = "it is in contact throughout" if shown.in_contact.all() else "the drive has too few periods there"
         raise InputError(
@@ -227,12 +181,32 @@ def _by_impact(result: Result, shown: JournalPath, window: str) -> Figure:
         )
     speeds = np.array([impact.speed for impact in shown.impacts])
     unit = readable("m/s", float(speeds.max()))
+    speeds = unit.scale * speeds
+    directions = np.unwrap(shown.directions)  # side by side where they fit into a turn
+    if np.ptp(directions) >= 2.0 * np.pi:
+        directions = (directions + np.pi) % (2.0 * np.pi) - np.pi
+    directions = DEGREES * directions
     drawing = style.begin(170, 95, f"Poincaré section by impacts, {as_words(shown.pin)}, {window}")
     places, returns = drawing.subplots(1, 2)
-    _draw_impacts(places, DEGREES * _together(shown.directions), unit.scale * speeds, unit)
-    _draw_returns(returns, unit.scale * speeds, unit)
-    none = period(result.scenario) is None
-    why = "The drive has no period" if none else f"Fewer than {FEWEST_PERIODS} periods of the drive lie here"
+    places.plot(directions, speeds, color="#999999", lw=0.6, zorder=2)
+    places.plot(directions, speeds, **CONTACT_MARK)
+    first: dict[str, Any] = {"ms": 6, "mfc": "none", "mec": style.IDEAL, "zorder": 4, "label": "first impact"}
+    places.plot(directions[0], speeds[0], "o", **first)
+    places.set(xlabel="direction of the impact from +x [deg]", ylabel=f"initial impact velocity [{unit.name}]")
+    places.set_ylim(0.0, None)
+    places.margins(x=0.08)
+    places.set_title("a) direction and velocity of impacts")
+    places.legend(**BELOW)
+    top = 1.08 * float(speeds.max())
+    returns.plot([0.0, top], [0.0, top], color=style.IDEAL, lw=0.7, ls=(0, (4, 2)), label="as fast as before")
+    returns.plot(speeds[:-1], speeds[1:], label="impacts", **CONTACT_MARK)
+    returns.set(aspect="equal", xlim=(0.0, top), ylim=(0.0, top), ylabel=f"of the next one [{unit.name}]")
+    returns.set_xlabel(f"initial impact velocity of an impact [{unit.name}]")
+    returns.set_title("b) from impact to impact")
+    returns.legend(ncols=2, **BELOW)
+    why = (
+        "The drive has no period" if no_period else f"Fewer than {FEWEST_PERIODS} periods of the drive lie here"
+    )
     caption(
         drawing,
         f"{why}, so the run is sampled whenever journal and bore make contact: {speeds.size} "
@@ -240,34 +214,3 @@ def _by_impact(result: Result, shown: JournalPath, window: str) -> Figure:
         "dashed line of (b) the next impact is as fast as the one before; below it the journal comes to rest.",
     )
     return drawing
-
-
-def _together(directions: Series) -> Series:
-    """The same directions [rad] side by side where they fit into a turn, else from -pi to pi."""
-    side_by_side: Series = np.unwrap(directions)
-    if np.ptp(side_by_side) < 2.0 * np.pi:
-        return side_by_side
-    return (directions + np.pi) % (2.0 * np.pi) - np.pi
-
-
-def _draw_impacts(axes: Axes, directions: Series, speeds: Series, unit: DisplayUnit) -> None:
-    axes.plot(directions, speeds, color="#999999", lw=0.6, zorder=2)
-    axes.plot(directions, speeds, **CONTACT_MARK)
-    axes.plot(directions[0], speeds[0], "o", ms=6, mfc="none", mec=style.IDEAL, zorder=4, label="first impact")
-    axes.set(xlabel="direction of the impact from +x [deg]", ylabel=f"initial impact velocity [{unit.name}]")
-    axes.set_ylim(0.0, None)
-    axes.margins(x=0.08)
-    axes.set_title("a) direction and velocity of impacts")
-    axes.legend(**BELOW)
-
-
-def _draw_returns(axes: Axes, speeds: Series, unit: DisplayUnit) -> None:
-    top = 1.08 * float(speeds.max())
-    axes.plot([0.0, top], [0.0, top], color=style.IDEAL, lw=0.7, ls=(0, (4, 2)), label="as fast as before")
-    axes.plot(speeds[:-1], speeds[1:], label="impacts", **CONTACT_MARK)
-    axes.set(aspect="equal", xlim=(0.0, top), ylim=(0.0, top))
-    axes.set(
-        xlabel=f"initial impact velocity of an impact [{unit.name}]", ylabel=f"of the next one [{unit.name}]"
-    )
-    axes.set_title("b) from impact to impact")
-    axes.legend(ncols=2, **BELOW)

@@ -11,7 +11,6 @@ from scipy import signal
 from support_exudyn.postprocessing.figures import style, units
 from support_exudyn.postprocessing.figures.journal import Series, chosen_pin, shortest_impact
 from support_exudyn.postprocessing.figures.selection import as_words, inside, window_text
-from support_exudyn.postprocessing.figures.style import caption
 from support_exudyn.postprocessing.figures.units import readable
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
@@ -35,15 +34,13 @@ COLOURS = "Greys"
 class Spectrum:
     """The spectrum of a quantity of unit U that was sampled at equal times.
 
-    frequency: (m,) [Hz]. amplitude: of a sine of each frequency [U], (m,). density: power by frequency,
-    one-sided [U^2/Hz], (m,). resolution: between two frequencies [Hz]. spacing: between two samples [s].
-    averaged: how many overlapping segments. resampled: whether the samples had to be interpolated to equal
-    times.
+    frequency: (m,) [Hz]. amplitude: of a sine of each frequency [U], (m,). resolution: between two frequencies
+    [Hz]. spacing: between two samples [s]. averaged: how many overlapping segments. resampled: whether the
+    samples had to be interpolated to equal times.
     """
 
     frequency: Series
     amplitude: Series
-    density: Series
     resolution: float
     spacing: float
     averaged: int
@@ -54,7 +51,7 @@ class Spectrum:
         """Highest frequency that the samples resolve [Hz]; what is faster appears below it."""
         return 0.5 / self.spacing
 
-    def peaks(self, most: int = len(LETTERS)) -> list[tuple[float, float]]:
+    def peaks(self) -> list[tuple[float, float]]:
         """Frequency [Hz] and amplitude [U] of the highest peaks that stand out, the highest first."""
         if not self.amplitude.max() > 0.0:
             return []
@@ -62,7 +59,7 @@ class Spectrum:
         found, _ = signal.find_peaks(
             levels, height=math.log(LOWEST * self.amplitude.max()), prominence=math.log(PROMINENCE)
         )
-        highest = sorted(found.tolist(), key=lambda n: -self.amplitude[n])[:most]
+        highest = sorted(found.tolist(), key=lambda n: -self.amplitude[n])[: len(LETTERS)]
         return [(float(self.frequency[n]), float(self.amplitude[n])) for n in highest]
 
 
@@ -76,8 +73,6 @@ def spectrum(time: Series, values: Series, segments: int = SEGMENTS) -> Spectrum
 
     Raises InputError if the samples are too few.
     """
-    if segments < 1:
-        raise InputError(f"segments = {segments}: allowed: 1 and more")
     values, spacing, resampled = equally_spaced(time, values)
     length = values.size // segments
     if length < FEWEST:
@@ -85,12 +80,11 @@ def spectrum(time: Series, values: Series, segments: int = SEGMENTS) -> Spectrum
             f"a spectrum of {values.size} records in {segments} segments: allowed: at least "
             f"{FEWEST * segments} records"
         )
-    rate = 1.0 / spacing
-    frequency, density = signal.welch(values, rate, WINDOW, length, detrend=_straight, scaling="density")
-    _, power = signal.welch(values, rate, WINDOW, length, detrend=_straight, scaling="spectrum")
+    frequency, power = signal.welch(
+        values, 1.0 / spacing, WINDOW, length, detrend=_straight, scaling="spectrum"
+    )
     averaged = (values.size - length) // (length - length // 2) + 1
-    amplitude = np.sqrt(2.0 * power)
-    return Spectrum(frequency, amplitude, density, float(frequency[1]), spacing, averaged, resampled)
+    return Spectrum(frequency, np.sqrt(2.0 * power), float(frequency[1]), spacing, averaged, resampled)
 
 
 def _straight(pieces: Series) -> Series:
@@ -118,37 +112,42 @@ def equally_spaced(time: Series, values: Series) -> tuple[Series, float, bool]:
 
 
 def force_spectrum(
-    result: Result,
-    pin: str | None = None,
-    after: float = 0.0,
-    until: float = math.inf,
-    *,
-    segments: int = SEGMENTS,
-    over_time: bool = True,
+    result: Result, pin: str | None = None, after: float = 0.0, until: float = math.inf
 ) -> Figure:
-    """Spectrum of the force in a pin.
+    """Spectrum of the force in a pin, and how it changes over the time (spectrogram).
 
     Arguments:
         pin: name of a pin, with clearance or ideal; the first with clearance by default, or the first one.
         after, until: of the piece of the run [s].
-        segments: see `spectrum`.
-        over_time: whether a second panel shows how the spectrum changes over the time (spectrogram).
 
     Raises InputError if there is no such pin, or too few records lie between the times.
     """
     pin = chosen_pin(result, pin, with_clearance=False)
     chosen = inside(result, after, until, FEWEST)
     time, force = result.time[chosen], result[f"pin.{pin}.force"][chosen]
-    found = spectrum(time, force, segments)
-    title = f"spectrum of the force in {as_words(pin)}, {window_text(result, after, until)}"
-    drawing = style.begin(170, 130 if over_time else 85, title)
-    panels = drawing.subplots(2 if over_time else 1, 1, squeeze=False)[:, 0]
-    _draw(panels[0], found, style.CONTACT if pin in result.onsets else style.IDEAL)
-    if over_time:
-        panels[0].set_title("a) amplitudes")
-        _draw_over_time(panels[1], time, force)
+    found = spectrum(time, force)
+    drawing = style.begin(
+        170, 130, f"spectrum of the force in {as_words(pin)}, {window_text(result, after, until)}"
+    )
+    amplitudes, over_time = drawing.subplots(2, 1)
+    _draw(amplitudes, found, style.CONTACT if pin in result.onsets else style.IDEAL)
+    _draw_over_time(over_time, time, force)
     impacts = tuple(one for one in result.onsets.get(pin, ()) if time[0] <= one.time <= time[-1])
-    caption(drawing, _words(found, shortest_impact(impacts), over_time))
+    text = (
+        f"Amplitude of a sine of each frequency, from records every {units.amount(found.spacing, 's', 4)}"
+        f"{' (interpolated to equal times)' if found.resampled else ''}: Welch's mean of {found.averaged} "
+        f"overlapping pieces, without straight trend, Hann's window. Bins of "
+        f"{units.amount(found.resolution, 'Hz')}, a tone is {WIDTH:g} bins wide; "
+        f"nothing is known above {units.amount(found.nyquist, 'Hz', 4)}. In (b) 0 dB is the largest amplitude. "
+        "The records sample the force: what is faster than that, such as brief impacts, appears at lower "
+        "frequencies (aliasing); a smaller record_period shows it."
+    )
+    if (shortest := shortest_impact(impacts)) < FINE_ENOUGH * found.spacing:
+        text += (
+            f" The shortest impact lasts {units.amount(shortest, 's')}: a record_period of "
+            f"{units.amount(shortest / FINE_ENOUGH, 's')} would follow it."
+        )
+    style.caption(drawing, text)
     return drawing
 
 
@@ -156,7 +155,7 @@ def _draw(axes: Axes, found: Spectrum, colour: str) -> None:
     unit, hertz = readable("N", float(found.amplitude.max())), readable("Hz", found.nyquist)
     amplitude, frequencies = unit.scale * found.amplitude[1:], hertz.scale * found.frequency[1:]
     axes.plot(frequencies, amplitude, color=colour, lw=0.9)
-    axes.set(xlabel=f"frequency [{hertz.name}]", ylabel=f"amplitude [{unit.name}]")
+    axes.set(title="a) amplitudes", xlabel=f"frequency [{hertz.name}]", ylabel=f"amplitude [{unit.name}]")
     axes.set_xlim(0.0, hertz.scale * found.nyquist)
     if frequencies.size > MANY:  # low frequencies, where machines run, would be a line at the edge
         axes.set_xscale("log")
@@ -202,25 +201,3 @@ def _draw_over_time(axes: Axes, time: Series, force: Series) -> None:
     piece = units.amount(length * spacing, "s")
     axes.set_title(f"b) over time, pieces of {piece}, resolved to {1.0 / (length * spacing):.3g} Hz")
     axes.figure.colorbar(drawn, ax=axes, label="amplitude [dB]", pad=0.01)
-
-
-def _words(found: Spectrum, shortest: float, over_time: bool) -> str:
-    text = (
-        f"Amplitude of a sine of each frequency, from records every {units.amount(found.spacing, 's', 4)}"
-        f"{' (interpolated to equal times)' if found.resampled else ''}: Welch's mean of {found.averaged} "
-        f"overlapping pieces, without straight trend, Hann's window. Bins of "
-        f"{units.amount(found.resolution, 'Hz')}, a tone is {WIDTH:g} bins wide; "
-        f"nothing is known above {units.amount(found.nyquist, 'Hz', 4)}. "
-    )
-    if over_time:
-        text += "In (b) 0 dB is the largest amplitude. "
-    text += (
-        "The records sample the force: what is faster than that, such as brief impacts, appears at lower "
-        "frequencies (aliasing); a smaller record_period shows it. "
-    )
-    if shortest < FINE_ENOUGH * found.spacing:
-        text += (
-            f"The shortest impact lasts {units.amount(shortest, 's')}: a record_period of "
-            f"{units.amount(shortest / FINE_ENOUGH, 's')} would follow it. "
-        )
-    return text.rstrip()

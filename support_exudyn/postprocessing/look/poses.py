@@ -17,7 +17,7 @@ from support_exudyn.model.to_space import at
 from support_exudyn.postprocessing.look.shapes import Shape
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.result import Result
-from user_forces.values.value import InputError, Vector3
+from user_forces.values.value import InputError, Vector2, Vector3
 
 WHY = "without it nobody knows where the body is"
 LEAST = 1e-9  # determinant below which roll, yaw and angle do not determine a rotation
@@ -203,6 +203,14 @@ def named_ends(linkage: Linkage | SpatialLinkage) -> list[tuple[str, str, tuple[
     for name, actuator in linkage.actuators.items():
         ends += [(name, actuator.foot, actuator.foot_point), (name, actuator.head, actuator.head_point)]
     return [*ends, *((name, traced.body, traced.point) for name, traced in linkage.points.items())]
+
+
+def joined_points(linkage: Linkage) -> dict[str, list[Vector2]]:
+    """The points of every body, and of the ground, at which pins, actuators and traced points are, start posture."""
+    points: dict[str, list[Vector2]] = {name: [] for name in (GROUND, *linkage.bodies)}
+    for _, body, (x, y) in named_ends(linkage):
+        points[body].append((x, y))
+    return points
 
 
 class PinEnd(NamedTuple):

@@ -8,11 +8,10 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from matplotlib.patches import Circle, FancyArrow, FancyBboxPatch
+from matplotlib.patches import Circle, FancyArrow
 from matplotlib.patheffects import withStroke
 from matplotlib.text import Text
 
-from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.postprocessing.render.stage import Picture
 
 Point = tuple[float, float]
@@ -30,10 +29,8 @@ class Canvas:
     def __init__(self, width: int, height: int) -> None:
         self._height = height
         # a hundredth of a pixel more: sizes are cut to whole pixels
-        self._figure = Figure(
-            ((width + 0.01) / POINTS, (height + 0.01) / POINTS), dpi=POINTS, facecolor="white"
-        )
-        self._figure.set_layout_engine("none")
+        inches = (width + 0.01) / POINTS, (height + 0.01) / POINTS
+        self._figure = Figure(inches, dpi=POINTS, facecolor="white", layout="none")
         self._canvas: Any = FigureCanvasAgg(self._figure)  # matplotlib has no types of it
         self.axes = self.axes_in((0, 0, width, height))
         self.axes.set(xlim=(0.0, width + 0.01), ylim=(height + 0.01, 0.0), zorder=1)
@@ -71,17 +68,12 @@ class Canvas:
         self, place: Point, text: str, size: float, colour: str = INK, anchor: str = "left baseline", *,
         bold: bool = False, room: float = math.inf,
     ) -> Text:  # fmt: skip
-        """Write a text.
+        """Write a text of a size [pixels], smaller where it is wider than there is room [pixels].
 
-        Arguments:
-            place: of its anchor.
-            size: of the letters [pixels]; they become smaller where the text is wider than there is room.
-            anchor: which point of the text is there, as matplotlib calls it: horizontal, then vertical.
-            room: [pixels].
+        anchor: which point of the text is at the place, as matplotlib calls it: horizontal, then vertical.
         """
         ha, va = anchor.split()
-        size = max(SMALLEST_FONT, size)
-        weight = "bold" if bold else "normal"
+        size, weight = max(SMALLEST_FONT, size), "bold" if bold else "normal"
         written = self.axes.text(*place, text, color=colour, size=size, ha=ha, va=va, weight=weight)
         if (wide := self.width(written)) > room:
             written.set_fontsize(max(SMALLEST_FONT, size * room / wide))
@@ -92,7 +84,7 @@ class Canvas:
         """The width of a text [pixels]."""
         return float(written.get_window_extent(self._canvas.get_renderer()).width)
 
-    def line(self, x: Series, y: Series, colour: str, thick: float) -> None:
+    def line(self, x: Any, y: Any, colour: str, thick: float) -> None:
         """Draw a line through points; NaN breaks it."""
         self._moving += self.axes.plot(x, y, color=colour, lw=thick, solid_capstyle="butt", scalex=False,
                                        scaley=False)  # fmt: skip
@@ -101,12 +93,6 @@ class Canvas:
         """Draw a disc, with a white rim of a thickness inside of its radius."""
         self.add(Circle(centre, radius - 0.5 * rim, fc=colour, ec="white", lw=rim))
 
-    def box(self, box: Box, colour: str, radius: float) -> None:
-        """Fill a rectangle with round corners."""
-        left, top, right, bottom = box
-        style = f"round,pad=0,rounding_size={radius}"
-        self.add(FancyBboxPatch((left, top), right - left, bottom - top, style, fc=colour, lw=0.0))
-
     def arrow(self, tail: Point, tip: Point, colour: str, thick: float) -> None:
         """Draw an arrow with a white edge, which is seen on anything, unless it is hardly longer than thick."""
         way = np.subtract(tip, tail)
@@ -114,12 +100,10 @@ class Canvas:
         if length < SHORTEST * thick:
             return
         head = min(4.2 * thick, 0.7 * length)
-        self.add(
-            FancyArrow(
-                *tail, *way, width=thick, head_length=head, head_width=2.0 * HEAD * head, color=colour, lw=0.0,
-                length_includes_head=True, path_effects=[withStroke(linewidth=0.7 * thick, foreground="white")],
-            )
-        )  # fmt: skip
+        self.add(FancyArrow(
+            *tail, *way, width=thick, head_length=head, head_width=2.0 * HEAD * head, color=colour, lw=0.0,
+            length_includes_head=True, path_effects=[withStroke(linewidth=0.7 * thick, foreground="white")],
+        ))  # fmt: skip
 
     def add(self, artist: Any) -> None:
         """Draw anything that matplotlib can, in pixels."""

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.colors import to_hex
-from matplotlib.patches import Circle, Patch
+from matplotlib.patches import Circle, FancyBboxPatch, Patch
 from matplotlib.ticker import MaxNLocator
 
 from support_exudyn.mechanics.trajectory import Series
@@ -16,7 +16,7 @@ from support_exudyn.postprocessing.figures.units import readable, said_beside
 from support_exudyn.postprocessing.look.shapes import COLOURS, Role
 from support_exudyn.postprocessing.render.canvas import FAINT, INK, RULE, SMALLEST_FONT, Box, Canvas, Point
 from support_exudyn.postprocessing.render.movie import Moments
-from support_exudyn.postprocessing.render.pin_views import STEPS, Bore, PinView, format_round, round_up, usual
+from support_exudyn.postprocessing.render.pin_views import STEPS, PinView, format_round, round_up, usual
 from support_exudyn.postprocessing.render.scene import RenderedScene
 from support_exudyn.postprocessing.render.stage import Camera, Picture
 from support_exudyn.scenario.scenario import Scenario
@@ -46,8 +46,12 @@ class Layout:
         self.line: Box = (margin, 0, right, top)
         self.picture: Box = (0, top, right - aside - margin if has_panel else width, bottom)
         self.panel: Box = (right - aside, top, right, bottom)
-        left = margin + round(58 * u)
-        self.strip: Box = (left, bottom + round(28 * u), right - margin, height - round(30 * u))
+        self.strip: Box = (
+            margin + round(58 * u),
+            bottom + round(28 * u),
+            right - margin,
+            height - round(30 * u),
+        )
 
     def insets(self, count: int) -> list[Box]:
         """Squares for so many insets in the panel, as large as leaves room for the words below them."""
@@ -94,19 +98,19 @@ class Painter:
     def _panel(self, pin: PinView) -> None:
         """Draw what of the panel does not change: the bores, and the scale of the arrow."""
         u, sheet, below = self._layout.unit, self._sheet, self._layout.panel[1]
-        loose = [(one, one.bore) for one in self._pins if one.bore is not None]
-        several, self._insets = len(loose) > 1, []
-        for (one, bore), box in zip(loose, self._layout.insets(len(loose)), strict=True):
-            inset = Inset(sheet, box, bore, SMALL * u if several else u, one.name if several else "")
-            self._insets.append((one, inset))
+        loose = [one for one in self._pins if one.is_loose]
+        several, self._insets = len(loose) > 1, list[Inset]()
+        for one, box in zip(loose, self._layout.insets(len(loose)), strict=True):
+            self._insets.append(Inset(sheet, box, one, SMALL * u if several else u, one_of_several=several))
             below = box[3]
         self._words = x, y = self._layout.panel[0], below + round(18 * u)
         sheet.write((x, y), f"force in {as_words(pin.name)}", 14 * u, anchor="left top")
-        sheet.write((x, y + 76 * u), f"on the {pin.on}", 14 * u, anchor="left top")
+        on = "journal" if pin.is_loose else pin.pin.second.body.replace("_", " ")
+        sheet.write((x, y + 76 * u), f"on the {on}", 14 * u, anchor="left top")
         force = readable("N", self._usual)
         bar = 1.0 / round_up(1.0 / (force.scale * self._usual))  # the round number below it
         tip = x + bar / force.scale * self._scale
-        sheet.arrow((x, y + 110 * u), (tip, y + 110 * u), CONTACT if pin.bore else IDEAL, 5.5 * u)
+        sheet.arrow((x, y + 110 * u), (tip, y + 110 * u), CONTACT if pin.is_loose else IDEAL, 5.5 * u)
         text = f"{format_round(bar)} {force.name}"
         sheet.write((tip + 14 * u, y + 110 * u), text, 14 * u, anchor="left center")
 
@@ -147,8 +151,8 @@ class Painter:
         sheet.write((left, top + 28 * u), text, 30 * u, colour, "left top", bold=True)
         if self._cut(pin, record) < 1.0:
             sheet.write((left, top + 126 * u), "the arrow is cut short", 13 * u, FAINT, "left top")
-        for one, inset in self._insets:
-            x, y = (self._scale * self._cut(one, record) * one.force[record]).tolist()
+        for inset in self._insets:
+            x, y = (self._scale * self._cut(inset.view, record) * inset.view.force[record]).tolist()
             inset.draw(record, self._moments.back(number, TRAIL), (x, -y))
         self._strip.cursor(float(self._time[record]), size)
 
@@ -161,32 +165,28 @@ class Painter:
         u, (x, y) = self._layout.unit, self._seen(self._scene.front_of(pin, record))
         force = self._cut(pin, record) * pin.force[record]
         along = self._camera.arrow(np.array([*force, 0.0])) / self._camera.scale * self._scale
-        mark = IDEAL if pin.bore is None else CONTACT if pin.bore.closed[record] else FLIGHT
+        mark = IDEAL if not pin.is_loose else CONTACT if pin.closed[record] else FLIGHT
         self._sheet.disc((x, y), 8.0 * u, mark, 1.5 * u)
         tip = x + float(along[0]), y + float(along[1])
-        self._sheet.arrow((x, y), tip, CONTACT if pin.bore else IDEAL, 8.0 * u)
+        self._sheet.arrow((x, y), tip, CONTACT if pin.is_loose else IDEAL, 8.0 * u)
 
 
 def title(scenario: Scenario, pin: PinView | None) -> str:
-    """A run in a line: machine, clearances, friction."""
+    """A run in a line: machine, clearance, friction, and how many more clearance joints there are."""
     words = [machine_name(scenario) + (" in space" if scenario.dimensions == 3 else "")]
-    shown = None if pin is None else pin.bore
-    if pin is not None and shown is not None:
-        contact = shown.pin.contact
-        coefficient = getattr(contact.friction, "sliding_coefficient", None)
-        friction = as_words(type(contact.friction).__name__)
-        friction = friction if coefficient is None else f"friction {coefficient:g}"
-        clearance = f"radial clearance {1e3 * contact.bearing.clearance:.4g} mm"
+    loose = None if pin is None else pin.pin.with_clearance
+    if pin is not None and loose is not None:
+        law = loose.contact.friction
+        coefficient = getattr(law, "sliding_coefficient", None)
+        friction = as_words(type(law).__name__) if coefficient is None else f"friction {coefficient:g}"
+        clearance = f"radial clearance {1e3 * loose.contact.bearing.clearance:.4g} mm"
         words.append(f"{as_words(pin.name)}: {clearance}, {friction}")
     elif not scenario.contact_places:
         words.append("ideal pins")
-    more = len(scenario.clearance_pins) - (shown is not None)
-    if more > 0:
-        words.append(f"{more} more clearance pin{'s' * (more > 1)}")
-    for name, guide in scenario.guides.items():
-        for part in list(guide.contacts().values())[:1]:  # by how much what slides can go to either side
-            play = part.contact.bearing.clearance - abs(part.point[1])
-            words.append(f"{as_words(name)}: play \u00b1{1e3 * play:.4g} mm")
+    guides = [name for name, guide in scenario.guides.items() if guide.contacts()]
+    for more, what in ((len(scenario.clearance_pins) - (loose is not None), "pin"), (len(guides), "guide")):
+        if more > 0:
+            words.append(f"{more} {'more ' * (what == 'pin')}clearance {what}{'s' * (more > 1)}")
     return "  \u00b7  ".join(words)
 
 
@@ -207,28 +207,31 @@ class Inset:
     Arguments:
         sheet: to draw on.
         box: where, a square [pixels].
-        bore: journal in its bore at the records.
+        view: the clearance pin.
         unit: the factor on lengths of a frame of 1280 x 720.
-        name: of the pin, where there are several insets; these are small, and say less.
+        one_of_several: whether it names its pin, and has no room for more words.
     """
 
-    def __init__(self, sheet: Canvas, box: Box, bore: Bore, unit: float, name: str = "") -> None:
-        self._sheet, self._box, self._bore, self._unit = sheet, box, bore, unit
+    def __init__(
+        self, sheet: Canvas, box: Box, view: PinView, unit: float, *, one_of_several: bool = False
+    ) -> None:
+        self._sheet, self._box, self.view, self._unit = sheet, box, view, unit
         left, top, right, bottom = box
         self.centre: Point = (0.5 * (left + right), 0.5 * (top + bottom) + 2 * unit)  # of the bore
         self._radius, gap = 0.5 * (right - left - 62 * unit) / RING, 8 * unit
-        sheet.box(box, "#eef0f2", 6 * unit)
+        style = f"round,pad=0,rounding_size={6 * unit}"
+        sheet.add(FancyBboxPatch((left, top), right - left, bottom - top, style, fc="#eef0f2", lw=0.0))
         sheet.disc(self.centre, RING * self._radius, HOUSING)
         sheet.disc(self.centre, self._radius, "#ffffff")
-        self.title = f"{as_words(name) or 'clearance'} \u00d7 {format_round(bore.enlargement)}"
-        place = (left + gap, top + gap)
-        sheet.write(place, self.title, 14 * unit, anchor="left top", bold=True, room=right - left - 2 * gap)
-        if name:
-            return
-        if bore.can_tilt:
-            sheet.write((right - gap, top + gap), "middle of the pin", 13 * unit, FAINT, "right top")
-        carrier = "base" if bore.carrier == GROUND else as_words(bore.carrier)
-        sheet.write((left + gap, bottom - gap), f"bore in {carrier}", 13 * unit, FAINT)
+        self.title = (
+            f"{as_words(view.name) if one_of_several else 'clearance'} \u00d7 {format_round(view.enlargement)}"
+        )
+        room = right - left - 2 * gap
+        sheet.write((left + gap, top + gap), self.title, 14 * unit, anchor="left top", bold=True, room=room)
+        if not one_of_several:
+            carrier = view.pin.bore.body
+            carrier = "base" if carrier == GROUND else as_words(carrier)
+            sheet.write((left + gap, bottom - gap), f"bore in {carrier}", 13 * unit, FAINT)
 
     def draw(self, record: int, first: int, force: Point) -> None:
         """Draw the journal at a record.
@@ -237,17 +240,17 @@ class Inset:
             first: record at which the trail begins.
             force: arrow of the force on the journal, to the right and down [pixels].
         """
-        u, bore, sheet, (x0, y0) = self._unit, self._bore, self._sheet, self.centre
-        path, inner = bore.enlarged(slice(first, record + 1), self._radius)
+        u, view, sheet, (x0, y0) = self._unit, self.view, self._sheet, self.centre
+        path, inner = view.enlarged(slice(first, record + 1), self._radius)
         x, y, play = x0 + path[:, 0], y0 - path[:, 1], self._radius - inner
         at = float(x[-1]), float(y[-1])
         sheet.disc(at, inner, JOURNAL)
         sheet.add(Circle(self.centre, play, fill=False, ec="#9a9a9a", lw=1.2 * u, ls=(0, (3.0, 2.5))))
-        before = bore.closed[first:record]
+        before = view.closed[first:record]
         for chosen, colour in ((~before, FLIGHT), (before, CONTACT)):
             if chosen.any():
                 sheet.line(*pieces(x, y, chosen), colour, 2.0 * u)
-        closed = bool(bore.closed[record])
+        closed = bool(view.closed[record])
         colour, word, ink = (CONTACT, "contact", CONTACT) if closed else (FLIGHT, "free flight", FLIGHT_TEXT)
         if closed:
             tail, shorter = at, min(1.0, LONGEST_INSIDE * self._radius / max(math.hypot(*force), 1e-9))
@@ -299,7 +302,7 @@ class Strip:
             text = f"cut off at {top:.3g} {shown.name}"
             sheet.write((box[2], high), text, 12 * unit, FAINT, "right baseline")
         force = np.minimum(force, top)
-        if pin.bore is None:
+        if not pin.is_loose:
             axes.plot(time, force, color=IDEAL, lw=1.3 * unit)
             return
         handles = [Patch(fc=CONTACT, label="contact"), Patch(fc=FLIGHT, label="free flight")]
@@ -308,7 +311,7 @@ class Strip:
             ncols=2, bbox_transform=sheet.axes.transData, frameon=False, fontsize=small, handlelength=1.4,
             handleheight=0.3, handletextpad=0.5, columnspacing=1.5, labelcolor=INK,
         )  # fmt: skip
-        closed = pin.bore.closed[inside]
+        closed = pin.closed[inside]
         pressed = closed[1:] | closed[:-1]  # there is a force at one of both records
         widths = (3.0 * unit, 1.3 * unit)
         draw_pieces(axes, time, force, pressed, widths, solid_capstyle="butt", clip_on=False)
@@ -318,5 +321,5 @@ class Strip:
         u, (left, top, right, bottom) = self._unit, self._box
         x = left + (time - self._start) / self._length * (right - left)
         y = bottom - min(self._shown.scale * force / self._top, 1.0) * (bottom - top)
-        self._sheet.line(np.array([x, x]), np.array([top, bottom]), INK, 1.4 * u)
+        self._sheet.line((x, x), (top, bottom), INK, 1.4 * u)
         self._sheet.disc((x, y), 4.5 * u, INK, 1.2 * u)

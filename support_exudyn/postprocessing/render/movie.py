@@ -1,7 +1,7 @@
 """The times of frames and which records they show; movies of frames: GIF by Pillow, MP4 by imageio-ffmpeg."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -33,7 +33,6 @@ class Moments:
 
     Arguments:
         times: of the frames [s].
-        records: that they show.
         time: of all records [s].
         step: between frames [s] of the run.
         rate: frames in a second of the movie.
@@ -41,11 +40,15 @@ class Moments:
     """
 
     times: Series
-    records: npt.NDArray[np.intp]
     time: Series
     step: float
     rate: float
     shown: tuple[float, float]
+
+    @property
+    def records(self) -> npt.NDArray[np.intp]:
+        """The records that the frames show."""
+        return nearest(self.time, self.times)
 
     @property
     def pace(self) -> str:
@@ -77,11 +80,11 @@ def moments(time: Series, after: float | None, until: float | None, rate: float,
 
     Raises InputError if one of these is out of its range, or there would be too many frames.
     """
-    check_between("frames_per_second", rate, 0.1, MOST_A_SECOND, "")
-    check_between("speed", speed, SLOWEST, FASTEST, "")
     first, last = float(time[0]), float(time[-1])
     after = first if after is None else after
     until = last if until is None else until
+    check_between("frames_per_second", rate, 0.1, MOST_A_SECOND, "")
+    check_between("speed", speed, SLOWEST, FASTEST, "")
     check_between("after", after, first, last, " s")
     check_between("until", until, first, last, " s")
     if until <= after and not time.size == 1:
@@ -93,16 +96,14 @@ def moments(time: Series, after: float | None, until: float | None, rate: float,
             f"{number} frames from {after} to {until} s at {rate:g} a second and speed {speed:g}; allowed: "
             f"up to {MOST_FRAMES}. Take a shorter time, a higher speed or fewer frames a second"
         )
-    times = after + step * np.arange(number, dtype=np.float64)
-    return Moments(times, nearest(time, times), time, step, rate, (after, until))
+    return Moments(after + step * np.arange(number, dtype=np.float64), time, step, rate, (after, until))
 
 
 def moment(time: Series, at: float) -> Moments:
     """The time of a single picture [s]. Raises InputError if the run does not reach it."""
     check_between("time", at, float(time[0]), float(time[-1]), " s")
-    times = np.array([at])
     step = min(LONGEST_STEP, float(np.median(np.diff(time)))) if time.size > 1 else LONGEST_STEP
-    return Moments(times, nearest(time, times), time, step, 1.0, (float(time[0]), float(time[-1])))
+    return Moments(np.array([at]), time, step, 1.0, (float(time[0]), float(time[-1])))
 
 
 def check_between(name: str, number: float, low: float, high: float, unit: str) -> None:
@@ -122,20 +123,17 @@ NEARLY_WHITE = 248  # of 255: what is as light is white, which Pillow rounds
 SAMPLED = 5  # frames by which the colours of a GIF are chosen
 ALWAYS = (CONTACT, FLIGHT, INK, "#ffffff")
 QUALITY = 8.0  # of MP4, from 0 to 10
-MISSING = "MP4 needs imageio-ffmpeg; allowed: pip install 'support-exudyn[movie]', or a GIF"
 
 
 def check(kind: str, rate: float, frames: int) -> None:
     """Raise InputError if a movie of this kind cannot be made, before frames are."""
     if kind not in KINDS:
         raise InputError(f"movie = {kind!r}: allowed: {', '.join(KINDS)}")
-    if kind == "gif" and rate > FASTEST_GIF:
+    if kind == "gif" and (rate > FASTEST_GIF or frames > MOST_GIF_FRAMES):
         raise InputError(
-            f"frames_per_second = {rate:g}: players show at most {FASTEST_GIF:g} of a GIF; allowed: as many, "
-            "or an MP4"
+            f"{frames} frames at frames_per_second = {rate:g}; allowed: of a GIF up to {MOST_GIF_FRAMES} and "
+            f"{FASTEST_GIF:g}, or an MP4"
         )
-    if kind == "gif" and frames > MOST_GIF_FRAMES:
-        raise InputError(f"{frames} frames are too many for a GIF; allowed: up to {MOST_GIF_FRAMES}, or an MP4")
     if kind == "mp4":
         _ffmpeg()
 
@@ -146,32 +144,28 @@ def write(kind: str, path: Path, frames: Sequence[Path], rate: float, progress: 
 
 
 def _gif(path: Path, frames: Sequence[Path], rate: float, progress: Progress) -> None:
-    """One palette for all, and no dots in between, so that what stands still costs nothing."""
+    """One palette for all, and no dots in between, so that what stands still costs nothing.
+
+    The palette has the colours that a few frames have most, and those that have a meaning.
+    """
     samples = [frames[n] for n in np.unique(np.linspace(0, len(frames) - 1, SAMPLED).astype(int))]
-    palette = _palette(Image.fromarray(np.concatenate([np.asarray(_shrunk(one)) for one in samples])))
-
-    def reduced() -> Iterator[Image.Image]:
-        for number, frame in enumerate(frames):
-            yield _shrunk(frame).quantize(palette=palette, dither=Image.Dither.NONE)
-            progress((number + 1) / len(frames))
-
-    images = reduced()
-    # hundredths of a second that add up to the movie's length
-    ends = np.round(100.0 * np.arange(len(frames) + 1) / rate).astype(int)
-    durations = (10 * np.diff(ends)).tolist()
-    with path.open("wb") as file:
-        next(images).save(
-            file, format="GIF", save_all=True, append_images=images, duration=durations, loop=0, optimize=False
-        )
-
-
-def _palette(sample: Image.Image) -> Image.Image:
-    """The colours that a picture has most, and those that have a meaning."""
+    sample = Image.fromarray(np.concatenate([np.asarray(_shrunk(one)) for one in samples]))
     most = sample.quantize(COLOURS - len(ALWAYS), method=Image.Quantize.MEDIANCUT).getpalette() or []
     chosen = [part for colour in ALWAYS for part in getrgb(colour)] + most[: 3 * (COLOURS - len(ALWAYS))]
     palette = Image.new("P", (1, 1))
     palette.putpalette([255 if part > NEARLY_WHITE else part for part in chosen])
-    return palette
+
+    def reduced(number: int) -> Image.Image:
+        progress((number + 1) / len(frames))
+        return _shrunk(frames[number]).quantize(palette=palette, dither=Image.Dither.NONE)
+
+    # hundredths of a second that add up to the movie's length
+    ends = np.round(100.0 * np.arange(len(frames) + 1) / rate).astype(int)
+    with path.open("wb") as file:
+        reduced(0).save(
+            file, format="GIF", save_all=True, append_images=map(reduced, range(1, len(frames))),
+            duration=(10 * np.diff(ends)).tolist(), loop=0, optimize=False,
+        )  # fmt: skip
 
 
 def _shrunk(path: Path) -> Image.Image:
@@ -188,7 +182,8 @@ def _ffmpeg() -> Any:
     try:
         import imageio_ffmpeg
     except ImportError:
-        raise InputError(MISSING) from None
+        words = "MP4 needs imageio-ffmpeg; allowed: pip install 'support-exudyn[movie]', or a GIF"
+        raise InputError(words) from None
     return imageio_ffmpeg
 
 

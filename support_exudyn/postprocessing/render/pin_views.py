@@ -8,7 +8,6 @@ import numpy as np
 import numpy.typing as npt
 
 from support_exudyn.mechanics.trajectory import Series
-from support_exudyn.model.pins import ClearancePin
 from support_exudyn.postprocessing.look.poses import PlacedPin, Poses, placed_pins
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError, short
@@ -20,63 +19,56 @@ MOST = 0.97  # share of forces that arrows and axes are made for; what is beyond
 
 
 @dataclass(frozen=True)
-class Bore:
-    """A journal in its bore, at the records.
-
-    Arguments:
-        pin: of the scenario.
-        eccentricity: of the journal's centre from the bore's, forward and up, shape (n, 2) [m]; in space
-            that of the middle of the bearing.
-        closed: whether it is in contact, shape (n,).
-        carrier: name of the body that has the bore.
-        can_tilt: whether the journal may make contact with an edge while its middle is away from the wall.
-    """
-
-    pin: ClearancePin
-    eccentricity: Series
-    closed: npt.NDArray[np.bool_]
-    carrier: str
-    can_tilt: bool = False
-
-    @property
-    def enlargement(self) -> float:
-        """The factor by which the clearance is enlarged in pictures, so that it is seen."""
-        bearing = self.pin.contact.bearing
-        return max(1.0, round_up(SHOWN * bearing.bore_radius / bearing.clearance))
-
-    def enlarged(self, records: int | slice, radius: float) -> tuple[Series, float]:
-        """The journal's centre from the bore's, and the journal's radius, in a picture.
-
-        radius: of the drawn bore, in any unit, which is that of the results.
-        """
-        bearing = self.pin.contact.bearing
-        scale = self.enlargement * radius / bearing.bore_radius
-        return scale * self.eccentricity[records], radius - scale * bearing.clearance
-
-
-@dataclass(frozen=True)
 class PinView:
     """A pin at the records.
 
     Arguments:
-        name: of the pin, as the channels know it.
-        on: the body, or the journal, on which the force acts.
-        force: forward and up, shape (n, 2) [N].
-        path: where the pin is, shape (n, 3) [m].
-        bore: None if the pin is ideal.
+        pin: with its two ends.
+        force: on the journal, of an ideal pin on the second body; forward and up, shape (n, 2) [N].
+        path: of the bore, shape (n, 3) [m].
+        eccentricity: of the journal's centre from the bore's, forward and up, shape (n, 2) [m]; in space in the
+            middle of the bearing. Zero if the pin is ideal.
     """
 
-    name: str
-    on: str
+    pin: PlacedPin
     force: Series
     path: Series
-    bore: Bore | None
+    eccentricity: Series
+
+    @property
+    def name(self) -> str:
+        """The name of the pin, as the channels know it."""
+        return self.pin.name
+
+    @property
+    def is_loose(self) -> bool:
+        """Whether the pin has clearance."""
+        return self.pin.with_clearance is not None
 
     @property
     def size(self) -> Series:
-        """Magnitude of the force, as far as it is in the plane (n,) [N]."""
-        size: Series = np.hypot(self.force[:, 0], self.force[:, 1])
+        """Magnitude of the force in the plane (n,) [N]."""
+        size: Series = np.hypot(*self.force.T)
         return size
+
+    @property
+    def closed(self) -> npt.NDArray[np.bool_]:
+        """Whether the journal is in contact (n,)."""
+        return self.size > 0.0
+
+    @property
+    def enlargement(self) -> float:
+        """The factor by which the clearance is enlarged in pictures, so that it is seen."""
+        assert self.pin.with_clearance is not None
+        bearing = self.pin.with_clearance.contact.bearing
+        return max(1.0, round_up(SHOWN * bearing.bore_radius / bearing.clearance))
+
+    def enlarged(self, records: int | slice, radius: float) -> tuple[Series, float]:
+        """The journal's centre from the bore's, and the journal's radius, in the unit of the drawn bore's radius."""
+        assert self.pin.with_clearance is not None
+        bearing = self.pin.with_clearance.contact.bearing
+        scale = self.enlargement * radius / bearing.bore_radius
+        return scale * self.eccentricity[records], radius - scale * bearing.clearance
 
 
 def pin_views(result: Result, name: str | None = None) -> list[PinView]:
@@ -107,12 +99,7 @@ def _view(result: Result, pin: PlacedPin) -> PinView:
 
     force = vector("force") * (-1.0 if pin.bore_is_second else 1.0)
     path = Poses(result).of(pin.bore.body).path(pin.bore.point)
-    if pin.with_clearance is None:
-        return PinView(pin.name, pin.second.body.replace("_", " "), force, path, None)
-    in_space = result.scenario.dimensions == 3
-    ends = [vector(f"{side}eccentricity") for side in (("left_", "right_") if in_space else ("",))]
-    bore = Bore(pin.with_clearance, np.mean(ends, axis=0), np.hypot(*force.T) > 0.0, pin.bore.body, in_space)
-    return PinView(pin.name, "journal", force, path, bore)
+    return PinView(pin, force, path, vector("eccentricity") if pin.with_clearance else np.zeros_like(force))
 
 
 # --- round numbers for scales ---

@@ -1,13 +1,12 @@
 """Frames and movies of a run, as files and as pictures."""
 
 import os
-from concurrent.futures import Future, ThreadPoolExecutor
+import re
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from PIL import Image
-from PIL.PngImagePlugin import PngInfo
 
 from support_exudyn.files.whole_file import whole_file
 from support_exudyn.postprocessing.export.whole_set import whole_set
@@ -27,10 +26,8 @@ SEEN = 0.25  # pixels by which something has to move before it is drawn anew
 SMALLEST, LARGEST = (320, 180), (3840, 2160)
 RATE = 25.0
 FRAMES_SHARE = 0.85  # of the time that is spent before the movie
-NAME = "frame_{:04d}.png"
-FRAME = "frame_*.png"
+NAME, FRAME = "frame_{:04d}.png", re.compile(r"frame_\d{4,}\.png")
 QUICKLY = 3  # compression of PNG
-MAKER = "support_exudyn"
 
 
 @dataclass(frozen=True)
@@ -85,22 +82,19 @@ def render(
     folder = Path(folder)
     shown = moments(result.time, after, until, frames_per_second, speed)
     movies.check(movie, frames_per_second, shown.times.size)
-    target = _movie_path(folder, movie, movie_path)
+    target = None
+    if movie != "none":
+        beside = folder.with_name(f"{folder.name.removesuffix('_frames') or folder.name}.{movie}")
+        target = beside if movie_path is None else Path(movie_path)
     show = _Show(result, size or (OF_GIF if movie == "gif" else SIZE), pin, shown)
     names = [NAME.format(n) for n in range(shown.times.size)]
-    earlier = [old.name for old in folder.glob(FRAME) if old.stem[len("frame_") :].isdigit() and _is_ours(old)]
+    earlier = [old.name for old in folder.glob("*") if FRAME.fullmatch(old.name)]
     share = FRAMES_SHARE if target else 1.0
     with whole_set(folder, names, earlier) as made:
         paths = [made / name for name in names]
-        with ThreadPoolExecutor(1) as painters:  # paints and writes while the next one is traced
-            painted: list[Future[None]] = []
-            for n, path in enumerate(paths):
-                machine = show.machine(n)
-                if painted:
-                    painted.pop().result()
-                painted.append(painters.submit(show.save, machine, n, path))
-                progress(share * (n + 1) / len(paths))
-            painted.pop().result()
+        for n, path in enumerate(paths):
+            Image.fromarray(show.frame(n)).save(path, format="PNG", compress_level=QUICKLY)
+            progress(share * (n + 1) / len(paths))
         if target is not None:
             with whole_file(target) as temporary:
                 rest = 1.0 - share
@@ -118,8 +112,7 @@ def still(result: Result, time: float, *, size: tuple[int, int] = SIZE, pin: str
 
     Raises InputError if the run does not reach the time, or as `render` does.
     """
-    show = _Show(result, size, pin, moment(result.time, time))
-    return show.frame(show.machine(0), 0)
+    return _Show(result, size, pin, moment(result.time, time)).frame(0)
 
 
 class _Show:
@@ -129,51 +122,20 @@ class _Show:
         for name, number, low, high in zip(("width", "height"), size, SMALLEST, LARGEST, strict=True):
             if not low <= number <= high or number % 2:
                 raise InputError(f"size: {name} = {number} pixels: allowed: even, from {low} to {high}")
-        self._scene, self._shown = RenderedScene(result), shown
+        self._scene, self._records = RenderedScene(result), shown.records
         views = pin_views(result, pin)
         layout = Layout(*size, bool(views))
         left, top, right, bottom = layout.picture
         self._camera = camera = self._scene.camera(right - left, bottom - top)
-        self._stage = Stage(self._scene.items(), camera, _processors())
+        threads = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+        self._stage = Stage(self._scene.items(), camera, threads)
         self._painter = Painter(self._scene, layout, camera, views, shown)
         self._traced: tuple[np.ndarray, Picture] | None = None
 
-    def machine(self, number: int) -> Picture:
-        """The machine alone, of a frame; that of an earlier one if nothing has visibly moved since."""
-        record = int(self._shown.records[number])
+    def frame(self, number: int) -> Picture:
+        """A whole frame; the machine is that of an earlier one if nothing has visibly moved since."""
+        record = int(self._records[number])
         where = self._camera.pixels(self._scene.corners(record))
         if self._traced is None or np.abs(where - self._traced[0]).max() > SEEN:
             self._traced = where, self._stage.image(self._scene.places(record))
-        return self._traced[1]
-
-    def frame(self, machine: Picture, number: int) -> Picture:
-        """The whole frame."""
-        return self._painter.frame(machine, number)
-
-    def save(self, machine: Picture, number: int, path: Path) -> None:
-        """Write it."""
-        text = PngInfo()
-        text.add_text("Software", MAKER)
-        frame = Image.fromarray(self.frame(machine, number))
-        frame.save(path, format="PNG", compress_level=QUICKLY, pnginfo=text)
-
-
-def _processors() -> int:
-    """The number of processors that this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-
-
-def _movie_path(folder: Path, kind: str, path: str | Path | None) -> Path | None:
-    if kind == "none":
-        return None
-    named = folder.with_name(f"{folder.name.removesuffix('_frames') or folder.name}.{kind}")
-    return named if path is None else Path(path)
-
-
-def _is_ours(path: Path) -> bool:
-    """Whether a frame says that this program has made it."""
-    try:
-        with Image.open(path, formats=["PNG"]) as opened:
-            return opened.info.get("Software") == MAKER
-    except (OSError, ValueError, SyntaxError):
-        return False
+        return self._painter.frame(self._traced[1], number)

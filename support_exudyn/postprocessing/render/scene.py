@@ -4,9 +4,10 @@ Around a support stand floor, roof, coal face, and the broken rock of the goaf. 
 through in the plane of symmetry, so that they hide nothing of the machine.
 """
 
+from __future__ import annotations
+
 from collections.abc import Iterator
-from dataclasses import dataclass
-from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 from shapely.geometry import Polygon, box
@@ -15,7 +16,7 @@ from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.loads.roofs import Roof
 from support_exudyn.postprocessing.look.looks import look
 from support_exudyn.postprocessing.look.poses import Poses
-from support_exudyn.postprocessing.look.shapes import COLOURS, Colour, Look, Role, Shape, plate
+from support_exudyn.postprocessing.look.shapes import COLOURS, Colour, Role, Shape, plate
 from support_exudyn.postprocessing.render.pin_views import PinView
 from support_exudyn.postprocessing.render.stage import Camera, MeshItem
 from support_exudyn.simulation.result import Result
@@ -25,46 +26,48 @@ STATES = 33  # records, spread over the run, by which the picture's frame is cho
 UNTURNED, NOWHERE = np.eye(3), np.zeros(3)
 
 
+class Label(NamedTuple):
+    """A word in the picture, with its middle at a point in space [m]; light: it is on a dark face."""
+
+    text: str
+    place: Vector3
+    light: bool = False
+
+
 class RenderedScene:
-    """The scene of a run. Raises InputError if the run has not recorded where its bodies are."""
+    """The scene of a run. Raises InputError if the run has not recorded where its bodies are.
+
+    points: the outermost ones of the machine at some records, shape (n, 3) [m].
+    """
 
     def __init__(self, result: Result) -> None:
-        self.result = result
-        self.look: Look = look(result.scenario)
-        self._poses = Poses(result)
-        self._records = np.unique(np.linspace(0, result.time.size - 1, STATES).astype(int)).tolist()
+        self.result, self.look, self._poses = result, look(result.scenario), Poses(result)
+        records = np.unique(np.linspace(0, result.time.size - 1, STATES).astype(int)).tolist()
 
-    def _hull(self, shape: Shape, record: int) -> Series:
-        """The outermost points of a shape (n, 3) [m]."""
-        return self._poses.frame(shape, record).points(shape.mesh.convex_hull.vertices)
+        def hull(shape: Shape) -> Series:
+            corners = shape.mesh.convex_hull.vertices
+            return np.concatenate([self._poses.frame(shape, record).points(corners) for record in records])
 
-    @cached_property
-    def points(self) -> Series:
-        """The outermost points of the machine at some records, shape (n, 3) [m]."""
-        return np.concatenate([self._hull(one, record) for one in self.look.shapes for record in self._records])
+        hulls = [(shape, hull(shape)) for shape in self.look.shapes]
+        self.points: Series = np.concatenate([points for _, points in hulls])
+        highest = [points[:, 1].max() for shape, points in hulls if shape.role is Role.CANOPY]
+        self.surroundings: Surroundings | None = None
+        if highest:  # a support
+            roof = self._pressing_roof(0)
+            above = 0.25 * GAP * float(np.ptp(self.points[:, 0]))
+            height = float(max(highest)) + above if roof is None else roof
+            self.surroundings = Surroundings(self.points, self.look.floor, height)
 
     def corners(self, record: int) -> Series:
         """The corners of boxes around all that may move, at a record, shape (n, 3) [m]."""
-        shapes = self.look.shapes
-        corners = [self._poses.frame(one, record).points(one.mesh.bounding_box.vertices) for one in shapes]
-        if self.surroundings is not None:
-            corners.append(np.array([[0.0, self.roof(record), 0.0]]))
-        return np.concatenate(corners)
+        corners = [
+            self._poses.frame(shape, record).points(shape.mesh.bounding_box.vertices)
+            for shape in self.look.shapes
+        ]
+        roof = [] if self.surroundings is None else [np.array([[0.0, self.roof(record), 0.0]])]
+        return np.concatenate(corners + roof)
 
-    @cached_property
-    def surroundings(self) -> "Surroundings | None":
-        """The surroundings of a support; None of machines without a canopy."""
-        canopies = [shape for shape in self.look.shapes if shape.role is Role.CANOPY]
-        if not canopies:
-            return None
-        length = float(np.ptp(self.points[:, 0]))
-        highest = max(self._hull(one, record)[:, 1].max() for one in canopies for record in self._records)
-        half_width = float(np.abs(self.points[:, 2]).max())
-        roof = self._face(0)
-        height = highest + 0.25 * GAP * length if roof is None else roof
-        return surroundings(self.points, self.look.floor, height, half_width)
-
-    def _face(self, record: int) -> float | None:
+    def _pressing_roof(self, record: int) -> float | None:
         """Height of the lowest roof that presses on the canopy, at its upper face [m]; None without one."""
         heights = []
         for load in self.result.scenario.acting_loads.values():
@@ -73,6 +76,12 @@ class RenderedScene:
                 descent = load.descent.extension(float(self.result.time[record]))
                 heights.append(max(tops, default=load.point[1]) + load.gap - descent)
         return min(heights, default=None)
+
+    def roof(self, record: int) -> float:
+        """Height of the roof's lower face [m]."""
+        assert self.surroundings is not None
+        face = self._pressing_roof(record)
+        return self.surroundings.roof_height if face is None else face
 
     def items(self) -> list[MeshItem]:
         """All surfaces, each in axes of its own: the machine's, what stands still, the roof."""
@@ -89,25 +98,19 @@ class RenderedScene:
             yield from ((NOWHERE, UNTURNED) for _ in self.surroundings.still)
             yield np.array([0.0, self.roof(record), 0.0]), UNTURNED
 
-    def roof(self, record: int) -> float:
-        """Height of the roof's lower face [m]."""
-        assert self.surroundings is not None
-        face = self._face(record)
-        return self.surroundings.roof_height if face is None else face
-
     def camera(self, width: int, height: int) -> Camera:
         """The camera that sees all of it over the whole run."""
         around = self.surroundings
         points = self.points if around is None else np.concatenate([self.points, around.points])
         return Camera.fitted(points, width, height, max(2, round(0.02 * height)))
 
-    def labels(self, record: int) -> "list[Label]":
+    def labels(self, record: int) -> list[Label]:
         """The words that are written into the picture."""
         if self.surroundings is None:
             return []
-        word = self.surroundings.roof_label
-        x, y, z = word.place
-        return [*self.surroundings.labels, Label(word.text, (x, y + self.roof(record), z), word.light)]
+        *still, roof = self.surroundings.labels
+        x, y, z = roof.place
+        return [*still, Label(roof.text, (x, y + self.roof(record), z))]
 
     def front_of(self, pin: PinView, record: int) -> Vector3:
         """The place of the end of a pin which the camera sees [m]."""
@@ -125,74 +128,41 @@ ROCK: Colour = (0.53, 0.51, 0.49)
 STEEP = 0.5  # how far the heap leans back, of its depth
 GAP = 0.02  # between things that do not make contact, of the machine's length
 BEHIND = 0.30  # how far the goaf reaches, of the machine's length
-BROKEN = [
-    (0.05, 0.0),
-    (0.0, 0.35),
-    (0.03, 0.6),
-    (-0.03, 1.0),
-]  # edge of the roof: of the length, of its thickness
+BROKEN = ((0.05, 0.0), (0.0, 0.35), (0.03, 0.6), (-0.03, 1.0))  # edge of the roof: of length, of thickness
 
 
-@dataclass(frozen=True)
-class Label:
-    """A word in the picture, with its middle at a point in space."""
-
-    text: str
-    place: Vector3
-    light: bool = False  # on a dark face
-
-
-@dataclass(frozen=True)
 class Surroundings:
     """The things that do not move, the roof, and their names.
 
-    Arguments:
-        still: in ground's axes.
-        roof: its lower face at the height 0; it is put at `roof_height` [m].
-        labels: names of things; that of the roof is measured from its lower face.
-        points: corners that should be in the picture (n, 3) [m].
-    """
-
-    still: tuple[MeshItem, ...]
-    roof: MeshItem
-    roof_height: float
-    labels: tuple[Label, ...]
-    roof_label: Label
-    points: Series
-
-
-def surroundings(machine: Series, floor: float, roof_height: float, half_width: float) -> Surroundings:
-    """The surroundings of a machine.
+    still: in ground's axes. roof: its lower face at the height 0. labels: names of things; that of the roof is
+    the last, measured from its lower face. points: corners that should be in the picture (n, 3) [m].
 
     Arguments:
         machine: points of its surface at all times (n, 3) [m].
         floor: height of the ground [m].
         roof_height: of the roof's lower face, at the start of a picture [m].
-        half_width: of the machine [m].
     """
-    rear, front = float(machine[:, 0].min()), float(machine[:, 0].max())
-    length, deep, height = front - rear, half_width, roof_height - floor
-    thick, face, back = 0.085 * length, front + 2.0 * GAP * length, rear - GAP * length
-    left, right, edge = face + 0.085 * length, back - BEHIND * length, back - 0.02 * length
-    heap = floor + 0.82 * height
-    behind = Polygon([(right, floor), (back, floor), (back - STEEP * (back - right), heap), (right, heap)])
-    crack = [(edge + x * length, y * thick) for x, y in BROKEN]
-    still = (
-        MeshItem(plate(box(right, floor - 0.035 * length, left, floor), 0.125 * deep, 2.25 * deep), FLOOR),
-        MeshItem(plate(box(face, floor, left, roof_height + thick), -0.5 * deep, deep), COAL),
-        MeshItem(plate(behind, -0.5 * deep, deep), ROCK),
-    )
-    corners = [item.mesh.bounding_box.vertices for item in still]
-    above = np.array([[face, roof_height + thick, -deep], [edge, roof_height + thick, -deep]])
-    return Surroundings(
-        still,
-        MeshItem(plate(Polygon([(face, 0.0), *crack, (face, thick)]), -0.5 * deep, deep), ROOF),
-        roof_height,
-        (
+
+    def __init__(self, machine: Series, floor: float, roof_height: float) -> None:
+        self.roof_height = roof_height
+        rear, front = float(machine[:, 0].min()), float(machine[:, 0].max())
+        length, deep, height = front - rear, float(np.abs(machine[:, 2]).max()), roof_height - floor
+        thick, face, back = 0.085 * length, front + 2.0 * GAP * length, rear - GAP * length
+        left, right, edge = face + 0.085 * length, back - BEHIND * length, back - 0.02 * length
+        heap = floor + 0.82 * height
+        behind = Polygon([(right, floor), (back, floor), (back - STEEP * (back - right), heap), (right, heap)])
+        above = Polygon([(face, 0.0), *((edge + x * length, y * thick) for x, y in BROKEN), (face, thick)])
+        self.still = (
+            MeshItem(plate(box(right, floor - 0.035 * length, left, floor), 0.125 * deep, 2.25 * deep), FLOOR),
+            MeshItem(plate(box(face, floor, left, roof_height + thick), -0.5 * deep, deep), COAL),
+            MeshItem(plate(behind, -0.5 * deep, deep), ROCK),
+        )
+        self.roof = MeshItem(plate(above, -0.5 * deep, deep), ROOF)
+        self.labels = (
             Label("coal\nface", (0.5 * (face + left), floor + 0.5 * height, 0.0), light=True),
             Label("floor", (face - 0.16 * length, floor - 0.0175 * length, 1.25 * deep)),
             Label("goaf", (right + 0.22 * (back - right), floor + 0.95 * height, 0.0)),
-        ),
-        Label("roof", (0.5 * (face + edge), 0.5 * thick, 0.0)),
-        np.concatenate([*corners, above]),
-    )
+            Label("roof", (0.5 * (face + edge), 0.5 * thick, 0.0)),
+        )
+        ends = np.array([[x, roof_height + thick, -deep] for x in (face, edge)])
+        self.points = np.concatenate([*(item.mesh.bounding_box.vertices for item in self.still), ends])

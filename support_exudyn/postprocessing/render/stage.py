@@ -82,24 +82,20 @@ FILL_FROM = (0.8, 0.25, 0.7, 0.0)
 
 
 class MeshItem(NamedTuple):
-    """A surface on the stage.
-
-    mesh: in axes of its own [m]. colour: RGB from 0 to 1. edges: whether edges are drawn.
-    """
+    """A surface on the stage, in axes of its own [m], and its colour, RGB from 0 to 1."""
 
     mesh: Trimesh
     colour: Colour
-    edges: bool = True
 
 
-def engine_surface(mesh: Trimesh, colour: Colour, edges: bool = True) -> dict[str, Any]:
+def engine_surface(mesh: Trimesh, colour: Colour) -> dict[str, Any]:
     """A surface as graphics data of the engine: smooth between its sharp edges, which are drawn as lines.
 
     The engine's own smoothing rounds points, and takes seconds. The ends of edges, which no triangle uses, come
     last among the points.
     """
     smooth = smooth_shade(mesh, angle=SHARP)
-    sharp = mesh.face_adjacency_edges[mesh.face_adjacency_angles > SHARP] if edges else np.empty((0, 2), int)
+    sharp = mesh.face_adjacency_edges[mesh.face_adjacency_angles > SHARP]
     points = np.concatenate([smooth.vertices, mesh.vertices[sharp.ravel()]])
     normals = np.zeros_like(points)
     normals[:, 2] = 1.0

@@ -52,9 +52,8 @@ class NoDisplayError(OSError):
 
 def check_display() -> None:
     """Raise NoDisplayError, which says why and what to do, unless the engine can open its windows."""
-    switches = exudyn.special.userInterface
     for name in ("suppressRenderer", "suppressSolutionViewer", "suppressDialogs"):
-        if getattr(switches, name):
+        if getattr(exudyn.special.userInterface, name):
             raise NoDisplayError(
                 f"no window: exudyn.special.userInterface.{name} is set, perhaps by the variable "
                 "EXUDYN_SUPPRESS_UI_WINDOW_OPEN; allowed: windows where neither is"
@@ -68,9 +67,10 @@ def check_display() -> None:
         except subprocess.TimeoutExpired:
             raise NoDisplayError(f"no window opened within {LONGEST:g} s. {INSTEAD}") from None
     if tried.returncode:
-        lines = f"{tried.stdout}\n{tried.stderr}".strip().splitlines()
-        reason = lines[-1].strip() if lines else f"the engine ended with code {tried.returncode}"
-        raise NoDisplayError(f"no window can be opened here: {reason}. {INSTEAD}")
+        lines = (
+            f"engine ended with code {tried.returncode}\n{tried.stdout}\n{tried.stderr}".strip().splitlines()
+        )
+        raise NoDisplayError(f"no window can be opened here: {lines[-1].strip()}. {INSTEAD}")
 
 
 # --- the viewer ---
@@ -126,16 +126,12 @@ class Window:
     model: ViewerModel
     solution: Solution
 
-    def set_row(self, row: int) -> None:
-        """Set the engine's state that is drawn to a row; raises InputError if there is none."""
+    def show(self, row: int) -> None:
+        """Show a row, which is a record of the run; raises InputError if there is none."""
         count = self.solution["nRows"]
         if not 0 <= row < count:
             raise InputError(f"row = {short(row)}: allowed: from 0 to {count - 1}")
         SetSolutionState(self.model.scene.mbs, self.solution, row, SHOWN)
-
-    def show(self, row: int) -> None:
-        """Show a row, which is a record of the run; raises InputError if there is none."""
-        self.set_row(row)
         renderer = self.model.scene.container.renderer
         renderer.SendRedrawSignal()
         renderer.DoIdleTasks(0)  # what moves by itself, actuators, is drawn by Python
@@ -149,21 +145,21 @@ class Window:
         """The picture in the window: RGB (height, width, 3) of 8 bits."""
         return np.array(self.model.scene.container.renderer.RedrawAndGetImage())
 
-    def camera(self, size: tuple[int, int]) -> tuple[float, list[float]]:
-        """Half the height that is seen at all rows [m], and the centre of the view in the screen's axes [m]."""
-        model = self.model
-        corners = [model.insets.corners]
-        for row in np.unique(np.linspace(0, self.solution["nRows"] - 1, MOST_STATES).astype(int)):
-            self.set_row(int(row))
-            for shape in model.look.shapes:
-                box = [(shape.body, point) for point in shape.mesh.bounding_box.vertices.tolist()]
-                ends = box if shape.strut is None else shape.strut.ends
-                corners.append(np.array([model.place(body, point) for body, point in ends]))
-        points = np.concatenate(corners)
-        low, high = points.min(axis=0), points.max(axis=0)
-        high[1] = low[1] + (high[1] - low[1]) / (1.0 - WORDS)
-        (x, y, z), (width, height, _) = 0.5 * (low + high), high - low
-        return 0.5 * MARGIN * max(height, width * size[1] / size[0]), [-x, y, -z]
+
+def _camera(model: ViewerModel, solution: Solution, size: tuple[int, int]) -> tuple[float, list[float]]:
+    """Half the height that is seen at all rows [m], and the centre of the view in the screen's axes [m]."""
+    corners = [model.corners]
+    for row in np.unique(np.linspace(0, solution["nRows"] - 1, MOST_STATES).astype(int)):
+        SetSolutionState(model.scene.mbs, solution, int(row), SHOWN)
+        for shape in model.look.shapes:
+            box = [(shape.body, point) for point in shape.mesh.bounding_box.vertices.tolist()]
+            ends = box if shape.strut is None else shape.strut.ends
+            corners.append(np.array([model.place(body, point) for body, point in ends]))
+    points = np.concatenate(corners)
+    low, high = points.min(axis=0), points.max(axis=0)
+    high[1] = low[1] + (high[1] - low[1]) / (1.0 - WORDS)
+    (x, y, z), (width, height, _) = 0.5 * (low + high), high - low
+    return 0.5 * MARGIN * max(height, width * size[1] / size[0]), [-x, y, -z]
 
 
 @contextmanager
@@ -194,7 +190,7 @@ def window(
         check_display()
         shown = Window(model, rows(result, model.scene) if read is None else read)
         _prepare(container.visualizationSettings, title(result, name), size)
-        zoom, centre = shown.camera(size)
+        zoom, centre = _camera(model, shown.solution, size)
         with quiet_engine():
             container.renderer.Start()
             container.renderer.SetModelView(zoom, FROM_THE_SIDE, centre)
