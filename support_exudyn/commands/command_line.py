@@ -145,11 +145,11 @@ def say(text: object) -> None:
 
 
 def show_table(title: str, header: Sequence[str], rows: Sequence[Sequence[str]], note: str = "") -> None:
-    """Print a table if it has rows, see `table_text`."""
+    """Print a table if it has rows, see `ResultTable`."""
     if rows:
-        from support_exudyn.postprocessing.terminal import table_text
+        from support_exudyn.postprocessing.result_table import ResultTable
 
-        say(table_text(title, header, rows, note))
+        say(ResultTable(title, tuple(header), [tuple(row) for row in rows], note).text())
 
 
 def write_or_say(text: str, out: Path | None) -> None:

@@ -81,8 +81,10 @@ def plot(
             drawn = {of_runs.in_name(patterns): of_runs.of_several(runs, series, patterns, ends, difference)}
         else:
             (called,) = runs
-            view = of_runs.RunFigures(patterns, kinds, pin, ends, phase, section or (), alone=is_file(out))
-            found = view.of(runs[called], left_out)
+            found = of_runs.of_run(
+                runs[called], patterns, kinds, pin, ends, left_out,
+                phase=phase, section=section or (), alone=is_file(out),
+            )  # fmt: skip
             drawn = {what: style.named(drawing, called) for what, drawing in found}
         window = of_runs.window_in_name(*ends)
         drawings = {of_runs.joined(called, what, window): drawing for what, drawing in drawn.items()}

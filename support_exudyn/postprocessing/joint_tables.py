@@ -2,12 +2,13 @@
 
 import math
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from support_exudyn.files.own_modules import NotImported, with_known_laws
 from support_exudyn.postprocessing.figures.units import amount
+from support_exudyn.postprocessing.result_table import ResultTable
 from support_exudyn.scenario.pin_pressure import PressedPin, pressed_pin
 from support_exudyn.scenario.pin_stability import PinOutlook
 from support_exudyn.scenario.scenario import Scenario
@@ -20,20 +21,7 @@ from user_forces.normal.law import NormalLaw
 
 DIGITS = 3  # of numbers of a theory that neglects edges, friction and roughness
 STATIC = "clearance pins under their static load, start posture"
-LARGEST = "clearance pins under their largest force"
 FILLED = "filled"  # what ends where a cavity begins, see `OilEvent`
-
-
-class ResultTable(NamedTuple):
-    """A table: title, heads of its columns, those of numbers with a > before them, rows, lines below it.
-
-    Without heads the columns are names and words.
-    """
-
-    title: str
-    header: tuple[str, ...]
-    rows: Sequence[tuple[str, ...]]
-    note: str = ""
 
 
 # --- laws ---

@@ -12,7 +12,7 @@ from support_exudyn.files.whole_file import missing_file
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.model.machine import Machine
 from support_exudyn.postprocessing.figures.selection import matching
-from support_exudyn.postprocessing.html import html_table
+from support_exudyn.postprocessing.result_table import ResultTable
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.names import Named
 from user_forces.values.value import InputError, short
@@ -43,7 +43,7 @@ class ChannelTable(Named[KnownChannel]):
 
     def _repr_html_(self) -> str:
         """The table, for notebooks."""
-        return html_table(f"{len(self)} channels", HEADER, self.rows())
+        return ResultTable(f"{len(self)} channels", HEADER, self.rows()).html()
 
 
 def channels(of: Scenario | Machine | MachineData | str | Path, *patterns: str) -> ChannelTable:
@@ -68,7 +68,14 @@ def channels(of: Scenario | Machine | MachineData | str | Path, *patterns: str) 
 
 def _scenario(of: object) -> Scenario:
     if isinstance(of, (str, Path)):
-        return _of_file(of)
+        if str(of) not in SHIPPED:
+            try:
+                table = load_toml(of)
+            except FileNotFoundError as error:
+                raise missing_file(of, ALLOWED, SHIPPED) from error
+            if "kind" not in table or "machine" in table:
+                return scenario_of(table, str(of), Path(of).parent)
+        of = load_machine(of)
     if isinstance(of, MachineData):
         of = of.machine
     if isinstance(of, Machine):
@@ -76,16 +83,3 @@ def _scenario(of: object) -> Scenario:
     if not isinstance(of, Scenario):
         raise InputError(f"of = {short(of)}: allowed: a scenario, a machine, or {ALLOWED}")
     return of
-
-
-def _of_file(name: str | Path) -> Scenario:
-    if str(name) in SHIPPED:
-        return _scenario(load_machine(name))
-    path = Path(name)
-    try:
-        table = load_toml(path)
-    except FileNotFoundError as error:
-        raise missing_file(path, ALLOWED, SHIPPED) from error
-    if "kind" in table and "machine" not in table:
-        return _scenario(load_machine(path))
-    return scenario_of(table, str(path), path.parent)

@@ -7,12 +7,9 @@ from matplotlib.figure import Figure
 from support_exudyn.postprocessing import summary
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.figures.channels import over_time
-from support_exudyn.postprocessing.html import html_table
-from support_exudyn.postprocessing.joint_tables import ResultTable
+from support_exudyn.postprocessing.result_table import ResultTable
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.result import Result
-
-FORCES = ("pin.*.force",)  # that are drawn if nothing is named
 
 
 def figure(result: Result, channels: Sequence[str], after: float, until: float) -> Figure:
@@ -21,7 +18,7 @@ def figure(result: Result, channels: Sequence[str], after: float, until: float) 
     Raises InputError as `over_time` does.
     """
     with style.look():
-        return over_time(result, channels or FORCES, after, until)
+        return over_time(result, channels or ("pin.*.force",), after, until)
 
 
 def page_of_result(result: Result) -> str:
@@ -33,7 +30,7 @@ def page_of_result(result: Result) -> str:
         summary.impacts_table("first impacts", result),
         ResultTable("how", (), summary.how(result)),
     ]
-    return "".join(html_table(table.title, table.header, table.rows) for table in tables if table.rows)
+    return "".join(table.html() for table in tables if table.rows)
 
 
 def page_of_scenario(scenario: Scenario) -> str:
@@ -42,4 +39,4 @@ def page_of_scenario(scenario: Scenario) -> str:
     rows = [*summary.what_is_run(scenario), ("formulation", scenario.formulation), ("accuracy", goal)]
     count = len(scenario.channel_definitions)
     rows.append(("channels", f"{', '.join(scenario.channels)} of {count}, see channels(scenario)"))
-    return html_table("Scenario", (), rows)
+    return ResultTable("Scenario", (), rows).html()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import tempfile
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -14,16 +14,17 @@ from PIL import Image
 
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.model.machine import Machine
-from support_exudyn.postprocessing import joint_tables, summary
+from support_exudyn.postprocessing import summary
 from support_exudyn.postprocessing.figures import overlay, style
 from support_exudyn.postprocessing.figures.linkage_drawing import machine_drawing
 from support_exudyn.postprocessing.figures.selection import machine_name, matching
-from support_exudyn.postprocessing.joint_tables import ResultTable
+from support_exudyn.postprocessing.joint_tables import hardest_pressed, pressure_table
 from support_exudyn.postprocessing.page.live import LiveFigure, of_drawing
 from support_exudyn.postprocessing.page.live_html import html
 from support_exudyn.postprocessing.page.pieces import Sheet, ShownFigure, ShownTable, image, templates
-from support_exudyn.postprocessing.shown_numbers import label, numbers, ranking, shown, side_by_side
-from support_exudyn.simulation.estimate import Estimate
+from support_exudyn.postprocessing.result_table import ResultTable
+from support_exudyn.postprocessing.shown_numbers import label
+from support_exudyn.postprocessing.side_by_side import RunsSideBySide
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
 
@@ -48,45 +49,33 @@ def run_report(runs: Mapping[str, Result], channels: Sequence[str] = ()) -> str:
     if not names or len(names) > MOST_CHANNELS:
         raise InputError(f"{len(names)} channels to draw over time; allowed: 1 to {MOST_CHANNELS}")
     drawing, live = _over_time(runs, names)
-    pages = html({"channels": live})
-    found_of = [numbers(result, *summary.WHOLE) for result in runs.values()]
-    estimates = dict(zip(runs, shown([*runs.values()], found_of, *summary.WHOLE), strict=True))
+    pages, both = html({"channels": live}), RunsSideBySide(runs)
     still, no_still = _still(runs)
-    impacts = {run: summary.impacts_table("First impacts", result) for run, result in runs.items()}
     pressed = {
-        run: joint_tables.pressure_table(
-            joint_tables.LARGEST.capitalize(), joint_tables.hardest_pressed(result)
-        )
-        for run, result in runs.items()
+        run: pressure_table("Pins under their largest force", hardest_pressed(runs[run])) for run in runs
     }
-    return (
-        templates()
-        .get_template(TEMPLATE)
-        .render(
-            title=f"Run {next(iter(runs))}" if len(runs) == 1 else f"Runs {', '.join(runs)}",
-            machines=_machines(runs),
-            over_time=ShownFigure(_picture(drawing), OVER_TIME, Markup(pages.places["channels"]), "channels"),
-            hardest=[f"{name} {order}" for name, found in estimates.items() if (order := ranking(found))],
-            key=ShownTable(
-                _numbers("Numbers of the clearance pins and traced points", runs, estimates, True), "key"
-            ),
-            numbers=ShownTable(_numbers("All numbers", runs, estimates), "numbers"),
-            impacts=ShownTable(_of_runs(impacts), "impacts"),
-            pressed=ShownTable(_of_runs(pressed), "pressed"),
-            what=ShownTable(_what(runs), "what"),
-            still=still,
-            no_still=no_still,
-            scripts=Markup(pages.scripts),
-        )
-    )
+    context = {
+        "title": f"Run {next(iter(runs))}" if len(runs) == 1 else f"Runs {', '.join(runs)}",
+        "machines": _machines(runs),
+        "over_time": ShownFigure(_picture(drawing), OVER_TIME, Markup(pages.places["channels"]), "channels"),
+        "key": ShownTable(
+            _numbers("Numbers of the clearance pins and traced points", both, _of_pins(runs)), "key"
+        ),
+        "numbers": ShownTable(_numbers("All numbers", both), "numbers"),
+        "impacts": ShownTable(
+            _of_runs({run: summary.impacts_table("First impacts", result) for run, result in runs.items()}),
+            "impacts",
+        ),
+        "pressed": ShownTable(_of_runs(pressed), "pressed"),
+        "what": ShownTable(_what(runs), "what"),
+        "still": still,
+        "no_still": no_still,
+        "scripts": Markup(pages.scripts),
+    }
+    return templates().get_template(TEMPLATE).render(context)
 
 
 # --- channels ---
-
-
-def _watched_pins(result: Result) -> list[str]:
-    """The clearance pins of a run, or all pins."""
-    return list(result.scenario.clearance_pins) or list(result.scenario.linkage.pins)
 
 
 def _default(runs: Mapping[str, Result]) -> list[str]:
@@ -96,13 +85,9 @@ def _default(runs: Mapping[str, Result]) -> list[str]:
     for result in runs.values():
         linkage = result.scenario.linkage
         pins = [pin for pin in loose or linkage.pins if pin in linkage.pins]
-        bodies = [
-            place.first if place.second == GROUND else place.second
-            for place in map(linkage.pins.get, pins)
-            if place
-        ]
-        wanted = [(f"pin.{pin}", ".force") for pin in pins]
-        wanted += [(body, ".angular_velocity") for body in bodies if loose]
+        places = [linkage.pins[pin] for pin in pins] if loose else []
+        bodies = [place.first if place.second == GROUND else place.second for place in places]
+        wanted = [(f"pin.{pin}", ".force") for pin in pins] + [(body, ".angular_velocity") for body in bodies]
         wanted += [(f"{point}.", axis) for point in linkage.points for axis in "xy"]
         for start, end in wanted:  # in space there are several of a name, left and right
             found |= dict.fromkeys(n for n in result.channels if n.startswith(start) and n.endswith(end))
@@ -111,25 +96,19 @@ def _default(runs: Mapping[str, Result]) -> list[str]:
 
 def _over_time(runs: Mapping[str, Result], names: Sequence[str]) -> tuple[Figure, LiveFigure]:
     """A panel a channel, a curve a run: drawn, and for the browser."""
-    for name in names:
-        if len(units := {run.unit(name) for run in runs.values() if name in run.channels}) > 1:
-            raise InputError(
-                f"{name}: is in {' and in '.join(sorted(units))}; allowed: runs that have one unit"
-            )
+    overlay.check_units(runs, names)
     with style.look():
         drawing = overlay.draw(runs, overlay.of_runs(runs, names), ", ".join(runs))
-        labels = {
-            n: f"{name} [{axes.get_ylabel().partition('[')[2].rstrip(']')}]"
-            for n, (name, axes) in enumerate(zip(names, drawing.axes, strict=True))
-        }
+        units = [axes.get_ylabel().partition("[")[2] for axes in drawing.axes]
+        labels = {n: f"{name} [{unit}" for n, (name, unit) in enumerate(zip(names, units, strict=True))}
         return drawing, of_drawing(drawing, labels)
 
 
-def _picture(drawing: Figure) -> str:
+def _picture(drawing: Figure | Image.Image) -> str:
     """A drawing as a data URI."""
     with tempfile.TemporaryDirectory() as folder, style.look():
         path = Path(folder) / "drawing.png"
-        drawing.savefig(path)
+        (drawing.savefig if isinstance(drawing, Figure) else drawing.save)(path)
         return image(path)
 
 
@@ -142,13 +121,13 @@ def _machines(runs: Mapping[str, Result]) -> list[ShownFigure]:
     drawn: list[Machine] = []
     for name, result in sorted(runs.items(), key=lambda item: not item[1].scenario.clearance_pins):
         scenario = result.scenario
-        if scenario.machine in drawn:
-            continue
-        drawn.append(scenario.machine)
-        loose = ", ".join(scenario.clearance_pins)
-        pins = f"clearance in {loose}" if loose else "all pins ideal"
-        caption = f"{machine_name(scenario).capitalize()} in the start posture of {name}: {pins}."
-        found.append(ShownFigure(_picture(machine_drawing(scenario)), caption, anchor=f"machine{len(drawn)}"))
+        if scenario.machine not in drawn:
+            drawn.append(scenario.machine)
+            loose = ", ".join(scenario.clearance_pins)
+            pins = f"clearance in {loose}" if loose else "all pins ideal"
+            caption = f"{machine_name(scenario).capitalize()} in the start posture of {name}: {pins}."
+            picture = _picture(machine_drawing(scenario))
+            found.append(ShownFigure(picture, caption, anchor=f"machine{len(drawn)}"))
     return found
 
 
@@ -162,52 +141,55 @@ def _still(runs: Mapping[str, Result]) -> tuple[ShownFigure | None, str]:
         picture = still(runs[name], time, size=STILL)
     except (InputError, RuntimeError) as error:
         return None, f"There is no rendered picture: {error}"
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "still.png"
-        Image.fromarray(picture).save(path)
-        return ShownFigure(image(path), f"Run {name} {when}, at {time:.6g} s.", anchor="still"), ""
+    caption = f"Run {name} {when}, at {time:.6g} s."
+    return ShownFigure(_picture(Image.fromarray(picture)), caption, anchor="still"), ""
 
 
 def _telling_time(result: Result) -> tuple[float, str]:
-    """When the hardest hit pin has its largest force [s], and that in words; without forces the run's end."""
-    forces = {pin: f"pin.{pin}.force" for pin in _watched_pins(result)}
-    recorded = {pin: result[name] for pin, name in forces.items() if name in result.channels}
-    loose = {pin: force for pin, force in result.largest_force.items() if pin in result.scenario.clearance_pins}
-    peaks = loose or {
-        pin: float(force.max()) for pin, force in recorded.items()
-    }  # at any step, or at the records
-    pin = max(peaks, key=lambda name: peaks[name], default="")
-    if pin in result.largest_force_time:
-        time = result.largest_force_time[pin]
-    elif pin in recorded:
-        time = float(result.time[int(np.argmax(recorded[pin]))])
-    else:
+    """When the hardest hit pin has its largest force [s], and that in words; without forces the run's end.
+
+    At any step of the clearance pins, else at the records of all pins.
+    """
+    pins = result.scenario.clearance_pins
+    if loose := {pin: time for pin, time in result.largest_force_time.items() if pin in pins}:
+        pin = max(loose, key=lambda name: result.largest_force[name])
+        return min(loose[pin], float(result.time[-1])), f"when the force in {pin} is largest"
+    every = [pin for pin in pins or result.scenario.linkage.pins if f"pin.{pin}.force" in result.channels]
+    forces = {pin: result[f"pin.{pin}.force"] for pin in every}
+    if not forces:
         return float(result.time[-1]), "at its end"
-    return min(time, float(result.time[-1])), f"when the force in {pin} is largest"
+    pin = max(forces, key=lambda name: float(forces[name].max()))
+    return float(result.time[int(np.argmax(forces[pin]))]), f"when the force in {pin} is largest"
 
 
 # --- tables ---
 
 
-def _numbers(
-    title: str, runs: Mapping[str, Result], estimates: Mapping[str, Mapping[str, Estimate]], key: bool = False
-) -> Sheet:
-    """Numbers side by side, a column a run; key: of clearance pins (or of all pins) and traced points alone."""
-    names: Iterable[str] = dict.fromkeys(name for found in estimates.values() for name in found)
-    if key:
-        loose = {pin for result in runs.values() for pin in result.scenario.clearance_pins}
-        pins = loose or {pin for result in runs.values() for pin in result.scenario.linkage.pins}
-        points = {point for result in runs.values() for point in result.scenario.linkage.points}
-        starts = (*(f"pin.{pin}" for pin in pins), *(f"{point}." for point in points))
-        names = [name for name in names if name.startswith(starts) and ".onset_" not in name]
-    rows = [(label(name), *side_by_side([estimates[run].get(name) for run in estimates])) for name in names]
-    known = any(math.isfinite(one.error) for found in estimates.values() for one in found.values())
+def _of_pins(runs: Mapping[str, Result]) -> tuple[str, ...]:
+    """What the numbers of clearance pins (or of all pins) and traced points begin with."""
+    scenarios = [result.scenario for result in runs.values()]
+    pins = {pin for one in scenarios for pin in one.clearance_pins}
+    pins = pins or {pin for one in scenarios for pin in one.linkage.pins}
+    return (
+        *(f"pin.{pin}" for pin in pins),
+        *(f"{point}." for one in scenarios for point in one.linkage.points),
+    )
+
+
+def _numbers(title: str, both: RunsSideBySide, starts: tuple[str, ...] = ()) -> Sheet:
+    """Numbers side by side, a column a run; starts: only those that begin so, and not those of onsets."""
+    rows = [
+        (label(name), *cells)
+        for name, *cells in both.rows()
+        if not starts or (name.startswith(starts) and ".onset_" not in name)
+    ]
+    known = any(math.isfinite(one.error) for found in both.printed for one in found.values())
     note = (
         "± estimated numerical error; without one it is below the last digit."
         if known
         else "Numerical errors are not known: no accuracy was asked."
     )
-    return Sheet(title, ("number", "unit", *estimates), tuple(rows), note, left=2, name="numbers")
+    return Sheet(title, ("number", "unit", *both.runs), tuple(rows), note, left=2, name="numbers")
 
 
 def _of_runs(tables: Mapping[str, ResultTable]) -> Sheet:

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Mapping, Sequence
 
-from support_exudyn.postprocessing.figures.units import amount, readable
+from support_exudyn.postprocessing.figures.units import readable
 from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.impulses import NO_PEAK
 from support_exudyn.simulation.reported_numbers import FORCE, measures
@@ -48,19 +48,6 @@ def hardest_first(found: Mapping[str, Estimate]) -> list[str]:
     """
     largest = {name.removesuffix(LARGEST): one.value for name, one in found.items() if name.endswith(LARGEST)}
     return sorted(largest, key=lambda joint: -largest[joint])
-
-
-def ranking(found: Mapping[str, Estimate]) -> str:
-    """Which of several clearance pins is hit hardest, how hard and when, then the others; empty for one pin.
-
-    found: numbers of the run that are printed, see `shown`; times that are not among them are left out.
-    """
-    hits = []
-    for joint in hardest_first(found):
-        force, when = found[f"{joint}{LARGEST}"], found.get(f"{joint}{LARGEST_TIME}")
-        at = f" at {amount(when.value, 's', 4)}" if when else ""
-        hits.append(f"{joint.removeprefix('pin.')}, {amount(force.value, force.unit, 4)}{at}")
-    return f"hits hardest: {hits[0]}; then {'; '.join(hits[1:])}" if len(hits) > 1 else ""
 
 
 def shown(

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from matplotlib.figure import Figure
 
 from support_exudyn.postprocessing.figures import overlay, style
-from support_exudyn.postprocessing.html import html_table
+from support_exudyn.postprocessing.result_table import ResultTable
 from support_exudyn.postprocessing.shown_numbers import numbers, shown, side_by_side
 from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.recorded_run import library
@@ -40,25 +40,26 @@ class RunsSideBySide:
     until: float = math.inf
 
     @cached_property
+    def _of_runs(self) -> list[dict[str, Estimate]]:
+        """Numbers of each run."""
+        return [numbers(result, self.after, self.until) for result in self.runs.values()]
+
+    @cached_property
     def numbers(self) -> Mapping[str, Mapping[str, Estimate]]:
         """Numbers that any run has, by name, of each run that has it; an error that is not known is NaN."""
-        return _by_name(self._of_runs)
+        names = dict.fromkeys(name for found in self._of_runs for name in found)
+        pairs = [*zip(self.runs, self._of_runs, strict=True)]
+        return Named({n: {run: found[n] for run, found in pairs if n in found} for n in names}, "number")
+
+    @cached_property
+    def printed(self) -> list[dict[str, Estimate]]:
+        """Of each run the numbers that are printed, see `shown`."""
+        return shown([*self.runs.values()], self._of_runs, self.after, self.until)
 
     def rows(self) -> list[tuple[str, ...]]:
         """A row for each printed number: name, unit in which it is read best, and value ± error of each run."""
-        found_of = [*self._of_runs.values()]
-        printed = dict(
-            zip(self.runs, shown([*self.runs.values()], found_of, self.after, self.until), strict=True)
-        )
-        return [
-            (name, *side_by_side([found.get(run) for run in self.runs]))
-            for name, found in _by_name(printed).items()
-        ]
-
-    @cached_property
-    def _of_runs(self) -> Mapping[str, Mapping[str, Estimate]]:
-        """Numbers by run."""
-        return {run: numbers(result, self.after, self.until) for run, result in self.runs.items()}
+        names = dict.fromkeys(name for found in self.printed for name in found)
+        return [(name, *side_by_side([found.get(name) for found in self.printed])) for name in names]
 
     def to_pandas(self) -> pd.DataFrame:
         """A row for each number, in SI: `unit`, and of each run its value and `NAME error`.
@@ -87,37 +88,22 @@ class RunsSideBySide:
         with style.look():
             return draw(self.runs, channels or ("pin.*.force",), self.after, self.until)
 
+    def table(self) -> ResultTable:
+        """The printed numbers; its title says what is known of their errors."""
+        unknown = [name for name, run in self.runs.items() if run.coarser is None]
+        title = "± estimated numerical error; a number without it has one below the last digit"
+        if unknown:
+            title = f"errors of {', '.join(unknown)} not known, for no accuracy was asked; of others {title}"
+        return ResultTable(title, ("number", "unit", *(f">{name}" for name in self.runs)), self.rows())
+
     def __str__(self) -> str:
-        """The table as text."""
-        rows = [("number", "unit", *self.runs), *self.rows()]
-        widths = [max(len(row[n]) for row in rows) for n in range(len(rows[0]))]
-        lines = ("  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)) for row in rows)
-        return "\n".join([self.note, *(line.rstrip() for line in lines)])
+        return self.table().text()
 
     __repr__ = __str__
 
     def _repr_html_(self) -> str:
         """The table of the numbers, for notebooks."""
-        header = ("number", "unit", *(f">{name}" for name in self.runs))
-        return html_table(self.note, header, self.rows())
-
-    @property
-    def note(self) -> str:
-        """What is said of the numbers' errors."""
-        unknown = [name for name, run in self.runs.items() if run.coarser is None]
-        said = "± estimated numerical error; where none is told, it is below the last digit"
-        if not unknown:
-            return said
-        return f"errors of {', '.join(unknown)} not known, for no accuracy was asked; of others {said}"
-
-
-def _by_name(of_runs: Mapping[str, Mapping[str, Estimate]]) -> Named[dict[str, Estimate]]:
-    """Numbers of runs by number, then by run."""
-    found: Named[dict[str, Estimate]] = Named(what="number")
-    for run, found_of_run in of_runs.items():
-        for name, number in found_of_run.items():
-            found.setdefault(name, {})[run] = number
-    return found
+        return self.table().html()
 
 
 def compare(
@@ -136,7 +122,8 @@ def compare(
     is no such file.
     """
     found: dict[str, Result] = {}
-    for name, run in [*((_name(n, run), run) for n, run in enumerate(runs, 1)), *named.items()]:
+    names = [Path(run).stem if isinstance(run, (str, Path)) else f"run {n}" for n, run in enumerate(runs, 1)]
+    for name, run in [*zip(names, runs, strict=True), *named.items()]:
         if isinstance(run, (str, Path)):
             run = Result.load(run)
         if not isinstance(run, Result):
@@ -147,7 +134,3 @@ def compare(
     if len(found) < FEWEST:
         raise InputError(f"runs: {len(found)} given; allowed: {FEWEST} or more")
     return RunsSideBySide(found, after, until)
-
-
-def _name(number: int, run: object) -> str:
-    return Path(run).stem if isinstance(run, (str, Path)) else f"run {number}"

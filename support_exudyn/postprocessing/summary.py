@@ -12,10 +12,6 @@ from support_exudyn.model.pins import ClearancePin, Pin
 from support_exudyn.postprocessing.figures import selection
 from support_exudyn.postprocessing.figures.units import amount, readable
 from support_exudyn.postprocessing.joint_tables import (
-    LARGEST as AT_LARGEST,
-)
-from support_exudyn.postprocessing.joint_tables import (
-    ResultTable,
     contact_lines,
     hardest_pressed,
     leg_table,
@@ -23,13 +19,13 @@ from support_exudyn.postprocessing.joint_tables import (
     stability_data,
     stability_table,
 )
+from support_exudyn.postprocessing.result_table import ResultTable
 from support_exudyn.postprocessing.shown_numbers import (
     DIGITS,
     LARGEST,
     hardest_first,
     label,
     numbers,
-    ranking,
     shown,
     with_error,
 )
@@ -59,7 +55,7 @@ def run_tables(result: Result, ends: tuple[float, float] = WHOLE, every: bool = 
     yield ResultTable("how", (), how(result))
     yield numbers_table(result, ends)
     yield leg_table(result, *ends)
-    yield pressure_table(AT_LARGEST, hardest_pressed(result))
+    yield pressure_table("clearance pins under their largest force", hardest_pressed(result))
     yield stability_table(outlooks(result))
     more = any(len(onsets) > IMPACTS for onsets in result.onsets.values())
     title = "first impacts" + (" (all: show RUN --impacts)" if more else "")
@@ -85,7 +81,7 @@ def numbers_table(result: Result, ends: tuple[float, float] = WHOLE, only: Seque
         "± estimated numerical error" if result.coarser else "numerical errors not known: no accuracy was asked"
     )
     title = f"{'numbers' if only else 'what came out'}, {selection.window_text(result, *ends)} ({known})"
-    return ResultTable(title, header, rows, "" if only else ranking(found))
+    return ResultTable(title, header, rows)
 
 
 def impacts_table(

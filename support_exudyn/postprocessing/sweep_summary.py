@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from support_exudyn.postprocessing.figures.units import DisplayUnit, readable
-from support_exudyn.postprocessing.joint_tables import ResultTable
+from support_exudyn.postprocessing.result_table import ResultTable
 from support_exudyn.postprocessing.sweep_runs import SweepNumber, SweepRuns, in_words
 from support_exudyn.sweeps.statistics import Percentile, Rank, percentiles, ranking
 from support_exudyn.sweeps.table import is_sampled

@@ -12,7 +12,6 @@ from support_exudyn.postprocessing.figures.channels import error_over_time, over
 from support_exudyn.postprocessing.figures.units import readable
 from tests import figure_checks, synthetic
 from tests.cases.run_cases import loose_support
-from user_forces import InputError
 
 TIME = np.linspace(0.0, 5.0, 501)
 WAVE = np.sin(2.0 * np.pi * TIME)
@@ -92,11 +91,3 @@ def test_errors_are_those_of_the_estimate() -> None:
     value = 1e-3 * found["rear_column.force"][130]
     assert [at.min(), at.max()] == pytest.approx([value - 1e-3 * errors[130], value + 1e-3 * errors[130]])
     assert "rear_column.force" in figure_checks.words_below(drawing)
-
-
-def test_what_cannot_be_drawn_is_refused() -> None:
-    many = synthetic.result(SCENARIO, TIME, {f"c{n}": (TIME, "m") for n in range(40)})
-    with pytest.raises(InputError, match="40 channels match; allowed in a figure: 32"):
-        over_time(many, ["*"])
-    with pytest.raises(InputError, match="0 records lie between"):
-        over_time(run(), ["tip.x"], after=7.0)

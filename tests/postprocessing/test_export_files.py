@@ -24,11 +24,6 @@ from user_forces import InputError, Value
 TIME = np.arange(101) * 0.01  # 100 records a second
 
 
-def test_one_in_so_many_from_the_first_that_lies_inside() -> None:
-    assert Sampling(every=40).records(TIME) == [0, 40, 80]
-    assert Sampling(every=40, after=0.095).records(TIME) == [10, 50, 90]
-
-
 times = st.lists(st.floats(0.0, 10.0, width=32), min_size=1, max_size=50, unique=True).map(sorted)
 
 
@@ -141,12 +136,6 @@ def write(folder: Path, text: str, size: int = 1) -> None:
 
 def texts(folder: Path) -> dict[str, str]:
     return {path.name: path.read_text(encoding="utf-8") for path in folder.iterdir()}
-
-
-def test_all_files_are_there_and_nothing_else(tmp_path: Path) -> None:
-    write(tmp_path / "deep" / "set", "old")
-    write(tmp_path / "deep" / "set", "new")
-    assert texts(tmp_path / "deep" / "set") == dict.fromkeys(FILES, "new")
 
 
 @pytest.mark.parametrize("error", [KeyboardInterrupt, ValueError])

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-import re
 
 import numpy as np
 import pytest
@@ -14,7 +13,6 @@ from matplotlib.figure import Figure
 
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.postprocessing.page.live import MOST_POINTS, of_drawing, thinned
-from support_exudyn.postprocessing.page.live_html import html
 from tests.often import often
 
 MOST = 60
@@ -79,13 +77,3 @@ def test_curves_of_a_drawing_are_its_labelled_lines_from_the_undermost() -> None
     assert (over.label, over.dash) == ("over", "dashed")
     assert (paper.dash, paper.x, paper.y) == ("points", (1.0, 2.0), (0.0, 30.0))
     assert max(v for v in under.y if v is not None) == 30.0
-
-
-def test_a_page_holds_the_library_once_and_loads_nothing() -> None:
-    figure = of_drawing(drawing(), [0, 1])
-    found = html({"one": figure, "other": figure})
-    assert set(found.places) == {"one", "other"}
-    assert len(set(found.places.values())) == 2
-    assert not re.search(r"<(script|link|img|iframe)[^>]*\b(src|href)=", found.scripts)
-    assert 1e6 < len(found.scripts) < 1.6e6
-    assert html({}).scripts == ""

@@ -10,7 +10,6 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
-from trimesh import Trimesh
 
 from studies.common.paper_machine import clearance_rise
 from support_exudyn import (
@@ -25,7 +24,6 @@ from support_exudyn import (
 )
 from support_exudyn.machines.four_column_support import PIVOTS
 from support_exudyn.machines.free_impact import ImpactStand
-from support_exudyn.model.linkage import GROUND
 from support_exudyn.postprocessing.look.looks import look, look_of
 from support_exudyn.postprocessing.look.poses import PlacedPin, placed_pins, planar_pins, turned
 from support_exudyn.postprocessing.look.shapes import Look, Role
@@ -86,42 +84,7 @@ def test_left_and_right_are_on_the_sides_that_the_machine_has_them(name: str) ->
     assert space.bodies["front_link_left"].centre[2] < 0.0 < space.bodies["front_link_right"].centre[2]
 
 
-@pytest.mark.parametrize(("bore", "body"), [("first", "rear_link"), ("second", GROUND)])
-def test_a_loose_pin_moves_with_the_body_that_has_its_journal(bore: str, body: str) -> None:
-    with_clearance = SCENES["clearance pin"]
-    pin = replace(with_clearance.clearance_pins["rear_base"], bore=bore)
-    shown = look(replace(with_clearance, pins={"rear_base": pin}))
-    (journal,) = [shape for shape in shown.shapes if shape.name == "pin_rear_base"]
-    assert journal.body == body
-
-
 # --- rods ---
-
-
-@pytest.mark.parametrize("rise", [0.0, 0.05, 0.3, 0.5])
-def test_rods_stay_in_their_cylinders_over_the_rise(rise: float) -> None:
-    scenario = (
-        replace(PLAIN, drive=CubicStep(stroke=rise)) if rise else replace(PLAIN, drive=CubicStep(stroke=1e-6))
-    )
-    machine = reference_support()
-    parts = [shape for shape in look(scenario).shapes if shape.strut]
-    for share in np.linspace(0.0, 1.0, 11):
-        posture = machine.extended(share * rise)
-        assert posture is not None
-        reached = dict(zip(("front_column", "rear_column"), machine.column_lengths(posture), strict=True))
-        for cylinder, rod in zip(parts[::2], parts[1::2], strict=True):
-            assert cylinder.strut is not None
-            length = reached[cylinder.strut.name.removesuffix("_left").removesuffix("_right")]
-            check_rod(cylinder.mesh, rod.mesh, length)
-
-
-def check_rod(cylinder: Trimesh, rod: Trimesh, length: float) -> None:
-    """The rod's inner end lies in the cylinder, and its outer end is out of it."""
-    inner = length + rod.bounds[0, 0]
-    end = cylinder.bounds[1, 0]
-    assert 0.0 < inner < end
-    assert end < length
-    assert rod.bounds[1, 1] <= cylinder.bounds[1, 1]
 
 
 # --- any size ---
@@ -201,9 +164,6 @@ def test_a_class_of_ones_own_registers_its_look() -> None:
     assert look_of.dispatch(HydraulicSupport) is look_of.dispatch(TwoLegShield)
 
 
-FRONT = "front_base"  # of the left and the right front link
-
-
 def pins_of(scenario: Scenario) -> dict[str, PlacedPin]:
     return {pin.name: pin for pin in placed_pins(scenario)}
 
@@ -222,17 +182,6 @@ def test_the_bore_is_on_the_body_that_the_scenario_says(dimensions: int, bore: s
     # the journal starts at the bottom of its bore; rounding of places of some metres
     apart = [pin.journal.point[k] - pin.bore.point[k] for k in range(2)]
     assert apart == pytest.approx([0.0, -0.0015], abs=1e-12)
-
-
-def test_bearings_of_a_pair_are_both_loose() -> None:
-    scenario = replace(loose_support(dimensions=3), pins={FRONT: ClearancePin(contact=paper_contact(1.5, 0.0))})
-    found = pins_of(scenario)
-    assert [name for name, pin in found.items() if pin.with_clearance is not None] == [
-        f"{FRONT}_left",
-        f"{FRONT}_right",
-    ]
-    left, right = (found[f"{FRONT}_{side}"].bore.point[2] for side in ("left", "right"))
-    assert left == -right < 0.0
 
 
 small = st.floats(-0.5, 0.5)

@@ -73,19 +73,6 @@ def test_the_direction_of_a_touch_is_that_of_the_flight_carried_on() -> None:
     assert journal(run).directions == pytest.approx([math.atan2(-1e-3, reached)], abs=1e-9)  # rounding of times
 
 
-def test_a_parting_is_where_the_records_around_it_are() -> None:
-    # pressed in at the back, where the angle jumps from pi to -pi, it slides down and parts between two records
-    y = 4e-6 * (24.5 - TIME * 1e3)
-    x = np.where(TIME < 24.5e-3, -1.55e-3, -1.45e-3)
-    run = synthetic.journal(SCENARIO, TIME, x, y, [Onset(0.5e-3, 0.1, 24.5e-3, 0.1)])
-    here, there, _ = journal(run).path()
-    assert here.max() < -1.4e-3
-    separation = np.flatnonzero(np.isclose(np.hypot(here, there), CLEARANCE, rtol=1e-12))[-1]
-    # between y of 2 and -2 um
-    assert there[separation] == pytest.approx(0.0, abs=5e-6)
-    assert here[separation] == pytest.approx(-CLEARANCE, rel=1e-4)
-
-
 def test_what_cannot_be_drawn_is_refused() -> None:
     ideal = synthetic.result(support(), TIME, {"pin.rear_base.force": (TIME, "N")})
     assert clearance_joints(ideal) == ()

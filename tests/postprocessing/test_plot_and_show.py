@@ -115,16 +115,6 @@ def test_runs_are_told_from_curves_by_their_content(curves: Path, tmp_path: Path
     assert [path.name for path in files if is_of_others(path)] == names[3:]
 
 
-def test_any_readable_file_is_drawn_beside_a_run(
-    curves: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    others = [str(tmp_path / name) for name in ("measured.parquet", "measured.csv")]
-    assert main(["plot", str(curves), *others, "--out", str(tmp_path / "figures")]) == 0
-    said = capsys.readouterr().out
-    assert "run_and_measured.parquet_and_measured.csv_overview.png" in said
-    assert len(list((tmp_path / "figures").glob("*.png"))) == 1
-
-
 # --- run and show ---
 
 

@@ -76,7 +76,7 @@ def test_a_roof_that_presses_is_drawn_where_it_is() -> None:
 def test_surfaces_are_put_where_the_exported_mesh_has_them(bouncing: Result, spatial: Result) -> None:
     for run in (bouncing, spatial):
         scene, record = RenderedScene(run), run.time.size - 1
-        expected = machine_mesh(run).frame(record).points
+        expected = machine_mesh(run).frame(record)[0]
         placed = [
             mesh_item.mesh.vertices @ turn.T + place
             for mesh_item, (place, turn) in zip(scene.items(), scene.places(record), strict=True)

@@ -4,28 +4,13 @@ from __future__ import annotations
 
 import json
 import re
-import shutil
-import time
-from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
-import numpy as np
 import pytest
 
-from support_exudyn import Result, simulate
+from support_exudyn import simulate
 from support_exudyn.__main__ import main
 from tests.cases.run_cases import loose_slider_crank, loose_support, support
-
-# all text of tooltips that are shown, in whatever shadow they are
-TOOLTIPS = """const found = [];
-const walk = (node) => { for (const one of node.querySelectorAll('*')) {
-  if (one.classList.contains('bk-tooltip-content')) found.push(one.innerText);
-  if (one.shadowRoot) walk(one.shadowRoot); } };
-walk(document); return found.join('|');"""
-
-# SI units in the units that tooltips show; a run of 0.05 s is shown in milliseconds
-SCALES = {"s": 1.0, "ms": 1e-3, "N": 1.0, "kN": 1e3}
 
 
 @pytest.fixture(scope="module")
@@ -100,56 +85,3 @@ def test_what_cannot_be_is_said_in_a_line(
 
 
 # --- in a browser ---
-
-
-@pytest.fixture(scope="module")
-def chromium(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
-    """A browser without a window."""
-    binary, driver = shutil.which("chromium"), shutil.which("chromedriver")
-    if not (binary and driver):
-        pytest.skip("chromium and chromedriver are not installed")
-    from selenium import webdriver
-
-    options = webdriver.ChromeOptions()
-    options.binary_location = binary
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    profile = tmp_path_factory.mktemp("profile")
-    words = "headless no-sandbox disable-gpu disable-quic no-first-run disable-background-networking"
-    for word in (*words.split(), "disable-component-update", "disable-sync", f"user-data-dir={profile}"):
-        options.add_argument(f"--{word}")
-    browser = webdriver.Chrome(options=options, service=webdriver.ChromeService(driver))
-    yield browser
-    browser.quit()
-
-
-def opened(browser: Any, page: Path, width: int) -> None:
-    size = {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False}
-    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
-    browser.get(page.as_uri())
-    until = time.monotonic() + 120.0
-    script = "return Boolean(window.Bokeh) && Bokeh.index.roots.length > 0"
-    while not browser.execute_script(script):
-        assert time.monotonic() < until, "the live figures do not appear"
-        time.sleep(0.05)
-
-
-@pytest.mark.slow
-def test_the_value_under_the_pointer_is_that_of_the_file(chromium: Any, page: Path, runs: Path) -> None:
-    from selenium.webdriver.common.action_chains import ActionChains
-    from selenium.webdriver.common.by import By
-
-    opened(chromium, page, 1000)
-    place = chromium.find_element(By.CSS_SELECTOR, "#channels .live")
-    chromium.execute_script("arguments[0].scrollIntoView({block: 'start'})", place)
-    ActionChains(chromium).move_to_element_with_offset(place, 60, 150 - place.size["height"] // 2).perform()
-    shown = ""
-    until = time.monotonic() + 120.0
-    while not shown and time.monotonic() < until:
-        shown = chromium.execute_script(TOOLTIPS)
-    values = {
-        name: float(value) * SCALES[unit] for name, value, unit in re.findall(r"(\S+):\s+(\S+) (\S+)", shown)
-    }
-    result = Result.load(runs / "loose.h5")
-    record = int(np.argmin(np.abs(result.time - values["time"])))
-    assert values["time"] == pytest.approx(result.time[record], rel=1e-6)
-    assert values["loose"] == pytest.approx(result["pin.rear_base.force"][record], rel=1e-6, abs=1e-3)

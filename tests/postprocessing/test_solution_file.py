@@ -28,7 +28,7 @@ from support_exudyn.files import save_scenario
 from support_exudyn.formulations.exudyn.scene.scene_builder import build
 from support_exudyn.formulations.exudyn.solver import solver
 from support_exudyn.mechanics.body_motion import rotation
-from support_exudyn.postprocessing.export.solution_file import euler_parameters, read_solution, rows
+from support_exudyn.postprocessing.export.solution_file import euler_parameters, rows
 from support_exudyn.postprocessing.look.poses import Poses
 from support_exudyn.postprocessing.viewer.viewer_model import POSITION, SHOWN, model_for_viewer
 from tests.cases.run_cases import loose_slider_crank, loose_support, support
@@ -133,15 +133,6 @@ def test_the_engines_model_is_where_the_run_was(name: str, tmp_path: Path) -> No
 
 
 # --- formats ---
-
-
-def test_the_binary_format_holds_the_same(run: Result, tmp_path: Path) -> None:
-    save_solution(run, tmp_path / "run.txt")
-    save_solution(run, tmp_path / "run.sol")
-    text, binary = load(tmp_path / "run.txt"), load(tmp_path / "run.sol")
-    assert np.array_equal(text["data"], binary["data"])
-    assert (tmp_path / "run.sol").read_bytes().startswith(b"EXUBIN")
-    assert read_solution(tmp_path / "run.sol")["nRows"] == run.time.size
 
 
 # --- whole or not at all ---

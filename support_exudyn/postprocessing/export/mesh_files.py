@@ -6,7 +6,7 @@ between them.
 
 import csv
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -60,16 +60,15 @@ def to_xdmf(
     otherwise; OSError if it cannot be written. After an error or an interruption nothing has changed.
     """
     path = Path(path)
-    if path.suffix != ".xdmf":
-        raise InputError(f"path = {str(path)!r}: allowed: names that end in .xdmf, by which readers know it")
-    if ":" in path.stem:
+    if path.suffix != ".xdmf" or ":" in path.stem:
         raise InputError(
-            f"path = {str(path)!r}: allowed: names without ':', at which readers of XDMF part the name of the "
-            "HDF5 file from the place in it; VTU, CSV and HDF5 can have it"
+            f"path = {str(path)!r}: allowed: names that end in .xdmf, by which readers know it, "
+            "without ':', at which they part the name of the HDF5 file from the place in it"
         )
     records = sampling.records(result.time)
     series = meshes_of(result, records[0])
-    values = sum(mesh.values_per_step for mesh in series)
+    frames = [mesh.frame(records[0]) for mesh in series]
+    values = sum(points.size + sum(one.size for one in data.values()) for points, data in frames)
     if len(records) * values > MOST_VALUES:
         raise InputError(
             f"{len(records)} steps of {values} numbers each: allowed in one XDMF file: {MOST_VALUES:g}, "
@@ -115,7 +114,7 @@ class MovingMeshWriter(TimeSeriesWriter):  # type: ignore[misc]  # meshio has no
 
     def write_step(self, time: float, record: int) -> None:
         """Write the mesh at a record, whose time [s] this is."""
-        series, frame = self.series, self.series.frame(record)
+        series, (points, data) = self.series, self.series.frame(record)
         grid = ElementTree.SubElement(self.collection, "Grid", Name=series.name, GridType="Uniform")
         ElementTree.SubElement(grid, "Time", Value=repr(time))
         if self._constants:
@@ -125,8 +124,8 @@ class MovingMeshWriter(TimeSeriesWriter):  # type: ignore[misc]  # meshio has no
             self.point_data(dict(series.point_constants), grid)
             self.cell_data({name: [data] for name, data in series.cell_constants.items()}, grid)
             self._constants = list(grid)[1:]
-        self.points(grid, frame.points)
-        self.point_data(dict(frame.data), grid)
+        self.points(grid, points)
+        self.point_data(dict(data), grid)
 
     def numpy_to_xml_string(self, data: Any) -> str:
         """Put data into the HDF5 file; returns where they are."""
@@ -154,18 +153,25 @@ def to_vtu(
     files = ["names.csv", *(name for of_mesh in steps.values() for name in of_mesh)]
     indexes = [f"{mesh.name}.pvd" for mesh in series]
     earlier = {name: _named_in(folder / name, STEP) for name in ("machine.pvd", "pins.pvd")}
-    stale = [name for name, found in earlier.items() if found] + [
-        one for found in earlier.values() for one in found
-    ]
+    stale = [name for name, found in earlier.items() if found]
+    stale += [one for found in earlier.values() for one in found]
     with whole_set(folder, [*files, *indexes], stale) as temporary:
         for step, record in enumerate(records):
             for mesh in series:
-                _write_step(temporary / steps[mesh.name][step], mesh, record)
+                points, data = mesh.frame(record)
+                cells = {name: [of_cells] for name, of_cells in mesh.cell_constants.items()}
+                written = meshio.Mesh(
+                    points, [(mesh.cell_type, mesh.cells)], {**mesh.point_constants, **data}, cells
+                )
+                written.write(temporary / steps[mesh.name][step], file_format="vtu")
             progress((step + 1) / len(records))
         _write_names(temporary / "names.csv", series)
-        times = [float(time) for time in result.time[records]]
-        for mesh in series:
-            _write_pvd(temporary / f"{mesh.name}.pvd", steps[mesh.name], times)
+        for mesh in series:  # which file is of which time [s]
+            root = ElementTree.Element("VTKFile", type="Collection", version="0.1")
+            collection = ElementTree.SubElement(root, "Collection")
+            for file, time in zip(steps[mesh.name], result.time[records].tolist(), strict=True):
+                ElementTree.SubElement(collection, "DataSet", timestep=repr(time), part="0", file=file)
+            _write_xml(temporary / f"{mesh.name}.pvd", root)
     return tuple(folder / name for name in (*indexes, *files))
 
 
@@ -175,26 +181,6 @@ def _named_in(index: Path, pattern: str) -> list[str]:
         return re.findall(pattern, index.read_text(encoding="utf-8", errors="replace"))
     except OSError:
         return []
-
-
-def _write_step(path: Path, series: MeshSeries, record: int) -> None:
-    """Write the mesh at a record as VTU."""
-    frame = series.frame(record)
-    meshio.Mesh(
-        frame.points,
-        [(series.cell_type, series.cells)],
-        point_data={**series.point_constants, **frame.data},
-        cell_data={name: [data] for name, data in series.cell_constants.items()},
-    ).write(path, file_format="vtu")
-
-
-def _write_pvd(path: Path, files: Sequence[str], times: Sequence[float]) -> None:
-    """Write which file of a folder is of which time [s]."""
-    root = ElementTree.Element("VTKFile", type="Collection", version="0.1")
-    collection = ElementTree.SubElement(root, "Collection")
-    for file, time in zip(files, times, strict=True):
-        ElementTree.SubElement(collection, "DataSet", timestep=repr(time), part="0", file=file)
-    _write_xml(path, root)
 
 
 def _write_xml(path: Path, root: ElementTree.Element) -> None:

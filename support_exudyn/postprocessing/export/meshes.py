@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -18,13 +18,6 @@ Field = npt.NDArray[Any]
 ROLES = tuple(Role)
 
 
-class MeshFrame(NamedTuple):
-    """A mesh at a record: points (m, 3) [m], and data of the points by names that end in their unit."""
-
-    points: Series
-    data: Mapping[str, Field]
-
-
 @dataclass(frozen=True)
 class MeshSeries:
     """A mesh over time; the same points and cells at all times.
@@ -33,7 +26,7 @@ class MeshSeries:
         name: of its files.
         cell_type: as meshio calls it.
         cells: points of each, shape (c, points of a cell).
-        frame: gives the mesh at a record.
+        frame: gives the points (m, 3) [m] at a record, and data of them by names that end in their unit.
         names: for a field of numbers, such as "body", what these stand for from 0 on.
         point_constants, cell_constants: data that stay, of points (m,) and of cells (c,).
     """
@@ -41,16 +34,10 @@ class MeshSeries:
     name: str
     cell_type: str
     cells: npt.NDArray[np.int32]
-    frame: Callable[[int], MeshFrame]
+    frame: Callable[[int], tuple[Series, Mapping[str, Field]]]
     names: Mapping[str, list[str]]
     point_constants: Mapping[str, Field] = field(default_factory=dict)
     cell_constants: Mapping[str, Field] = field(default_factory=dict)
-
-    @property
-    def values_per_step(self) -> int:
-        """The count of numbers that a step has."""
-        frame = self.frame(0)
-        return frame.points.size + sum(data.size for data in frame.data.values())
 
 
 def meshes_of(result: Result, first: int) -> list[MeshSeries]:
@@ -78,25 +65,21 @@ def machine_mesh(result: Result, first: int = 0) -> MeshSeries:
 
     start = points(first)
 
-    def frame(record: int) -> MeshFrame:
+    def frame(record: int) -> tuple[Series, Mapping[str, Field]]:
         velocities = [poses.frame(one, record).velocities(one.mesh.vertices) for one in shapes]
         places = points(record)
-        return MeshFrame(places, {"velocity_m_s": np.concatenate(velocities), "displacement_m": places - start})
+        return places, {"velocity_m_s": np.concatenate(velocities), "displacement_m": places - start}
 
     firsts = np.cumsum([0, *(len(one.mesh.vertices) for one in shapes[:-1])])
-    counts = [len(one.mesh.faces) for one in shapes]
+    cells = np.concatenate([one.mesh.faces + n for one, n in zip(shapes, firsts, strict=True)]).astype(np.int32)
     numbers = {
         "body": [bodies.index(one.body) for one in shapes],
         "role": [ROLES.index(one.role) for one in shapes],
     }
-    return MeshSeries(
-        "machine",
-        "triangle",
-        np.concatenate([s.mesh.faces + n for s, n in zip(shapes, firsts, strict=True)]).astype(np.int32),
-        frame,
-        {"body": bodies, "role": [role.value for role in ROLES]},
-        cell_constants={name: np.repeat(of, counts).astype(np.int32) for name, of in numbers.items()},
-    )
+    counts = [len(one.mesh.faces) for one in shapes]
+    constants = {name: np.repeat(of, counts).astype(np.int32) for name, of in numbers.items()}
+    names = {"body": bodies, "role": [role.value for role in ROLES]}
+    return MeshSeries("machine", "triangle", cells, frame, names, cell_constants=constants)
 
 
 def pin_points(result: Result) -> MeshSeries | None:
@@ -104,35 +87,31 @@ def pin_points(result: Result) -> MeshSeries | None:
 
     A clearance pin is where its journal is. Data: force_N of the first body on the second and its size
     force_magnitude_N; depth_m, negative in free flight, and slip_m_s, which an ideal pin has not (NaN); pin;
-    loose, 1 or 0.
+    with_clearance, 1 or 0.
     """
     pins, poses = placed_pins(result.scenario), Poses(result)
     if not pins:
         return None
-    unknown, axes = np.full(result.time.size, np.nan), "xyz"[: result.scenario.dimensions]
     is_loose = [pin.with_clearance is not None for pin in pins]
-
-    def channel(name: str) -> Series:
-        return result.recorded(name, "pins are written with it")
-
     ends = [pin.journal if loose else pin.first for pin, loose in zip(pins, is_loose, strict=True)]
     places = np.array([poses.of(end.body).path(end.point) for end in ends])
-    forces = np.zeros_like(places)
-    for k, axis in enumerate(axes):
-        forces[:, :, k] = [channel(f"pin.{pin.name}.force_{axis}") for pin in pins]
-    depths, slips = (
-        np.array([
-            channel(f"pin.{pin.name}.{what}") if loose else unknown
-            for pin, loose in zip(pins, is_loose, strict=True)
-        ])
-        for what in ("depth", "slip")
-    )  # fmt: skip
 
-    def frame(record: int) -> MeshFrame:
+    def channel(what: str, known: list[bool]) -> Series:
+        unknown, why = np.full(result.time.size, np.nan), "pins are written with it"
+        pairs = zip(pins, known, strict=True)
+        return np.array(
+            [result.recorded(f"pin.{pin.name}.{what}", why) if is_ else unknown for pin, is_ in pairs]
+        )
+
+    forces = np.zeros_like(places)
+    for k, axis in enumerate("xyz"[: result.scenario.dimensions]):
+        forces[:, :, k] = channel(f"force_{axis}", [True] * len(pins))
+    depths, slips = (channel(what, is_loose) for what in ("depth", "slip"))
+
+    def frame(record: int) -> tuple[Series, Mapping[str, Field]]:
         force = forces[:, record]
         data = {"force_N": force, "force_magnitude_N": np.linalg.norm(force, axis=1)}
-        data |= {"depth_m": depths[:, record], "slip_m_s": slips[:, record]}
-        return MeshFrame(places[:, record], data)
+        return places[:, record], data | {"depth_m": depths[:, record], "slip_m_s": slips[:, record]}
 
     numbers = np.arange(len(pins), dtype=np.int32)
     constants = {"pin": numbers, "with_clearance": np.array(is_loose, dtype=np.int32)}

@@ -57,17 +57,13 @@ class Sampling(Value):
         if self.every is not None:
             inside = inside[:: self.every]
         if self.frames_per_second is not None:
-            inside = inside[_nearest(time[inside], self.frames_per_second)]
+            times, rate = time[inside], self.frames_per_second
+            count = (times[-1] - times[0]) * rate
+            if count > MOST_FRAMES:
+                raise InputError(
+                    f"frames_per_second = {rate:g}: {count:.3g} frames; allowed: up to {MOST_FRAMES}; every = "
+                    "1 takes all records"
+                )
+            wanted = times[0] + np.arange(math.floor(count + 1e-9) + 1) / rate
+            inside = inside[np.unique(nearest(times, wanted))]
         return [int(record) for record in inside]
-
-
-def _nearest(time: Series, rate: float) -> np.ndarray:
-    """Indexes of the times that lie nearest to a uniform row of times, each once."""
-    count = (time[-1] - time[0]) * rate
-    if count > MOST_FRAMES:
-        raise InputError(
-            f"frames_per_second = {rate:g}: {count:.3g} frames; allowed: up to {MOST_FRAMES}; every = 1 takes "
-            "all records"
-        )
-    wanted = time[0] + np.arange(math.floor(count + 1e-9) + 1) / rate
-    return np.unique(nearest(time, wanted))

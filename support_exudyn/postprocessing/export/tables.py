@@ -2,7 +2,6 @@
 
 import csv
 import json
-from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -12,7 +11,6 @@ import numpy as np
 
 from support_exudyn.files.series.own_runs import EXPORTED
 from support_exudyn.files.whole_file import whole_file
-from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.postprocessing.export.sampling import Sampling
 from support_exudyn.postprocessing.export.whole_set import check_is_no_run
 from support_exudyn.scene.contract import Progress, silent
@@ -43,7 +41,9 @@ def to_csv(
     """
     path = Path(path)
     check_is_no_run(path)
-    columns, records = columns_of(result), sampling.records(result.time)
+    names = sorted(result.channels, key=lambda name: name != "time")  # which is first in a new run only
+    columns = {f"{name} [{result.unit(name) or '1'}]": result[name] for name in names}
+    records = sampling.records(result.time)
     with whole_file(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(columns)
@@ -77,7 +77,10 @@ def to_hdf5(result: Result, path: str | Path, sampling: Sampling = TABLES) -> tu
         for name, channel in result.channels.items():
             _put(file, f"channels/{name}", channel.values[records], channel.unit, channel.meaning)
         for pin, onsets in result.onsets.items():
-            _put_onsets(file.create_group(f"onsets/{pin}"), onsets, result.largest_force[pin])
+            columns = np.array(onsets, dtype=np.float64).reshape(-1, len(Onset._fields)).T
+            for field, values in zip(Onset._fields, columns, strict=True):
+                _put(file, f"onsets/{pin}/{field}", values, *ONSET_COLUMNS[field])
+            file.require_group(f"onsets/{pin}").attrs["largest_force_N"] = result.largest_force[pin]
         told = {
             "scenario": result.scenario.to_data(),
             "provenance": dict(result.provenance),
@@ -92,19 +95,6 @@ def to_hdf5(result: Result, path: str | Path, sampling: Sampling = TABLES) -> tu
     with whole_file(path) as temporary:
         temporary.write_bytes(image)
     return (path,)
-
-
-def columns_of(result: Result) -> dict[str, Series]:
-    """All channels by names such as `pin.rear_base.force [N]`; time first, also of a run that was read back."""
-    names = sorted(result.channels, key=lambda name: name != "time")
-    return {f"{name} [{result.unit(name) or '1'}]": result[name] for name in names}
-
-
-def _put_onsets(group: h5py.Group, onsets: Sequence[Onset], largest_force: float) -> None:
-    columns = np.array(onsets, dtype=np.float64).reshape(-1, len(Onset._fields)).T
-    for field, values in zip(Onset._fields, columns, strict=True):
-        _put(group, field, values, *ONSET_COLUMNS[field])
-    group.attrs["largest_force_N"] = largest_force
 
 
 def _put(group: h5py.Group, name: str, values: np.ndarray, unit: str, meaning: str) -> None:

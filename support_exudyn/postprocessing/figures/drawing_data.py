@@ -14,7 +14,6 @@ from matplotlib.axis import Axis
 from matplotlib.collections import PathCollection, PolyCollection, QuadMesh
 from matplotlib.container import BarContainer, ErrorbarContainer
 from matplotlib.figure import Figure
-from matplotlib.patches import Rectangle
 
 from support_exudyn.files.whole_file import whole_file
 from support_exudyn.mechanics.trajectory import Series
@@ -34,47 +33,44 @@ def save_drawing_data(drawing: Figure, path: Path) -> bool:
     """
     rows: list[dict[str, str]] = []
     notes: list[str] = []
-    for letter, axes in _lettered(drawing):
-        names = {"x": _tick_names(axes.xaxis), "y": _tick_names(axes.yaxis)}
-        before = len(rows)
-        for curve, columns in drawn_data(axes):
-            for numbers in zip(*(column.tolist() for column in columns.values()), strict=True):
-                cells = {name: _cell(number) for name, number in zip(columns, numbers, strict=True)}
-                cells |= {f"{axis}_name": names[axis].get(cells.get(axis, ""), "") for axis in names}
-                rows.append({"panel": letter, "curve": curve, **cells})
-        if len(rows) > before:
-            labels = in_line(axes.get_xlabel()), in_line(axes.get_ylabel())
-            notes.append(f"# panel {letter}: x = {labels[0]}; y = {labels[1]}\n")
-    if not rows:
-        return False
-    used = [name for name in COLUMNS if any(row.get(name) for row in rows)]
-    with whole_file(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
-        file.writelines(notes)
-        writer = csv.DictWriter(file, used, "", "ignore", lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
-    return True
-
-
-def _lettered(drawing: Figure) -> list[tuple[str, Axes]]:
-    """The panels that have axes, each with the letter that stands on it, else with its place's."""
     panels = [axes for axes in drawing.axes if axes.axison and axes.get_label() != "<colorbar>"]
-    found = []
     for place, axes in enumerate(panels):
         bold = [text.get_text() for text in axes.texts if text.get_fontweight() == "bold"]
-        letters = [text for text in bold if len(text) == 1 and text in ascii_lowercase]
-        found.append((letters[0] if letters else ascii_lowercase[place % 26], axes))
-    return found
+        letter = next((text for text in bold if text and text in ascii_lowercase), ascii_lowercase[place % 26])
+        names = {"x": _tick_names(axes.xaxis), "y": _tick_names(axes.yaxis)}
+        found = [
+            {"panel": letter, "curve": in_line(curve), **dict(zip(columns, map(_cell, numbers), strict=True))}
+            for curve, columns in drawn_data(axes)
+            for numbers in zip(*(column.tolist() for column in columns.values()), strict=True)
+        ]
+        if found:
+            labels = in_line(axes.get_xlabel()), in_line(axes.get_ylabel())
+            notes.append(f"# panel {letter}: x = {labels[0]}; y = {labels[1]}\n")
+        rows += [
+            row | {f"{axis}_name": names[axis].get(row.get(axis, ""), "") for axis in names} for row in found
+        ]
+    used = [name for name in COLUMNS if any(row.get(name) for row in rows)]
+    if rows:
+        with whole_file(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
+            file.writelines(notes)
+            writer = csv.DictWriter(file, used, "", "ignore", lineterminator="\n")
+            writer.writeheader()
+            writer.writerows(rows)
+    return bool(rows)
 
 
 def drawn_data(axes: Axes) -> Iterator[tuple[str, Columns]]:
     """What a panel shows, each with its name: bars, error bars, lines, marks, bands, maps; columns are (n,)."""
-    bars = [one for one in axes.containers if isinstance(one, BarContainer) and len(one)]
-    of_bars = {id(one.errorbar) for one in bars}
-    points = [one for one in axes.containers if isinstance(one, ErrorbarContainer) and id(one) not in of_bars]
+    for one in axes.containers:
+        if isinstance(one, BarContainer):
+            boxes: list[Any] = [*one]
+            x, y, wide, high = np.array([(*box.get_xy(), box.get_width(), box.get_height()) for box in boxes]).T
+            level = one.orientation == "horizontal"
+            ends = {"x": x + wide, "y": y + 0.5 * high} if level else {"x": x + 0.5 * wide, "y": y + high}
+            yield _name(one, "bars"), ends
+        elif isinstance(one, ErrorbarContainer):
+            yield _name(one, "error bars"), _of_error_bars(one)
     inside = {id(part) for one in axes.containers for part in one.get_children()}
-    yield from ((_name(one, "bars"), _of_bars(one)) for one in bars)
-    yield from ((_name(one, "points"), _of_error_bars(one)) for one in points)
     low, high = sorted(axes.get_xlim())
     in_data = [line for line in axes.get_lines() if line.get_transform() == axes.transData]
     for number, line in enumerate((line for line in in_data if id(line) not in inside), 1):
@@ -95,40 +91,19 @@ def drawn_data(axes: Axes) -> Iterator[tuple[str, Columns]]:
             for path in item.get_paths():
                 x, y = _filled(path.vertices).T
                 yield _name(item, f"area {place}"), {"x": x, "y": y}
-    for image in axes.get_images():
-        if np.ndim(pixels := _filled(image.get_array())) == 2:  # the middles of its pixels
-            left, right, *ends = image.get_extent()
-            first, last = ends[::-1] if image.origin == "upper" else ends
-            y, x = (np.indices(pixels.shape) + 0.5) / np.reshape(pixels.shape, (2, 1, 1))
-            x, y = left + (right - left) * x.ravel(), first + (last - first) * y.ravel()
-            yield _name(image, "map"), {"x": x, "y": y, "value": pixels.ravel()}
 
 
 def _of_error_bars(container: ErrorbarContainer) -> Columns:
-    """The points, and the ends of their bars."""
+    """The points, else the middles of their bars; and the ends of these."""
     line, _, bars = container.lines
     found: Columns = {}
     for bar, along in zip(bars, "x" * container.has_xerr + "y" * container.has_yerr, strict=False):
         ends = np.array(bar.get_segments())  # (n, 2, 2): ends of each, x and y
         values = ends[:, :, "xy".index(along)]
         found |= {f"{along}_low": values.min(axis=1), f"{along}_high": values.max(axis=1)}
-        found |= {"x": ends[:, :, 0].mean(axis=1), "y": ends[:, :, 1].mean(axis=1)} if line is None else {}
+        found |= {"x": ends[:, :, 0].mean(axis=1), "y": ends[:, :, 1].mean(axis=1)}
     if line is not None:
         found["x"], found["y"] = (_filled(data) for data in line.get_data(orig=False))
-    return found
-
-
-def _of_bars(container: BarContainer) -> Columns:
-    """Bars by the middle of their width and their end, and the ends of their error bars."""
-    boxes = [
-        (*box.get_xy(), box.get_width(), box.get_height()) for box in container if isinstance(box, Rectangle)
-    ]
-    x, y, wide, high = np.array(boxes).T
-    level = container.orientation == "horizontal"
-    found = {"x": x + wide, "y": y + 0.5 * high} if level else {"x": x + 0.5 * wide, "y": y + high}
-    if container.errorbar is not None:
-        along, ends = "x" if level else "y", _of_error_bars(container.errorbar)
-        found |= {name: ends[name] for name in (f"{along}_low", f"{along}_high")}
     return found
 
 
@@ -147,8 +122,8 @@ def _tick_names(axis: Axis) -> dict[str, str]:
 
 def _name(item: Any, otherwise: str) -> str:
     """The label of a thing, unless it is one that matplotlib gave."""
-    text = in_line(str(item.get_label() or ""))
-    return otherwise if not text or text.startswith("_") else text
+    label = str(item.get_label() or "_")
+    return otherwise if label.startswith("_") else label
 
 
 def _cell(number: float) -> str:

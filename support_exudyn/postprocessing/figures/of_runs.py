@@ -4,7 +4,6 @@ import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import NamedTuple
 
 from matplotlib.figure import Figure
 
@@ -29,59 +28,63 @@ NO_NAME = re.compile(r"[^\w.-]+")  # what is left out of a file's name
 LONGEST = 80  # letters of the channels in a file's name
 
 
-class RunFigures(NamedTuple):
-    """What is drawn of a run.
+def of_run(
+    result: Result,
+    patterns: Sequence[str],
+    kinds: Sequence[str],
+    pin: str | None,
+    ends: tuple[float, float],
+    left_out: dict[str, str],
+    *,
+    phase: float = 0.0,
+    section: tuple[str, ...] = (),
+    alone: bool = False,
+) -> Iterator[tuple[str, Figure]]:
+    """Each figure of a run with what it shows, as a part of its file's name.
 
-    patterns: channels over time, or patterns of them; without them and without kinds or a pin an overview.
-    kinds: of figures of a pin: "orbit", "poincare", "spectrum", "stability"; without, all that can be drawn of
-    the pin, unless there are patterns, or `alone` asks for a single figure. pin: its name; None: the first with
-    clearance. ends: times [s]. phase: of a section, as a share of the period. section: its two channels.
-    """
-
-    patterns: Sequence[str] = ()
-    kinds: Sequence[str] = ()
-    pin: str | None = None
-    ends: tuple[float, float] = (-math.inf, math.inf)
-    phase: float = 0.0
-    section: tuple[str, ...] = ()
-    alone: bool = False
-
-    def of(self, result: Result, left_out: dict[str, str]) -> Iterator[tuple[str, Figure]]:
-        """Each figure with what it shows, as a part of its file's name.
-
+    Arguments:
+        result: the run.
+        patterns: channels over time, or patterns of them; without them and without kinds or a pin an overview.
+        kinds: of figures of a pin: "orbit", "poincare", "spectrum", "stability"; without, all that can be drawn
+            of the pin, unless there are patterns, or `alone` asks for a single figure.
+        pin: its name; None: the first with clearance.
+        ends: times [s].
         left_out: gets the kinds that were not asked for and cannot be drawn, and why.
+        phase: of a section, as a share of the period. section: its two channels.
 
-        Raises InputError for a kind that was asked for and cannot be drawn.
-        """
-        if self.patterns or not (self.kinds or self.pin):
-            yield in_name(self.patterns), channels.over_time(result, self.patterns or usual(result), *self.ends)
-        is_optional = not self.kinds and bool(self.pin or not (self.patterns or self.alone))
-        if is_optional and not clearance_joints(result):
-            return
-        for kind in ("orbit", "poincare", "spectrum") if is_optional else self.kinds:
+    Raises InputError for a kind that was asked for and cannot be drawn.
+    """
+    if patterns or not (kinds or pin):
+        yield in_name(patterns), channels.over_time(result, patterns or usual(result), *ends)
+    if kinds:
+        yield from (_of_pin(kind, result, pin, ends, phase, section) for kind in kinds)
+    elif clearance_joints(result) and (pin or not (patterns or alone)):
+        for kind in ("orbit", "poincare", "spectrum"):
             try:
-                drawn = self._of_pin(kind, result)
+                yield _of_pin(kind, result, pin, ends, phase, section)
             except InputError as error:  # noqa: PERF203
-                if not is_optional:
-                    raise
                 left_out[kind] = str(error)
-            else:
-                yield drawn
 
-    def _of_pin(self, kind: str, result: Result) -> tuple[str, Figure]:
-        if kind == "poincare":
-            pin = next((joint for joint in clearance_joints(result) if self.pin in (None, joint)), None)
-            pair = matching(result.channels, self.section)
-            drawing = poincare.poincare(result, pin, *self.ends, phase=self.phase, channels=pair)
-            return joined(
-                kind, pin or "", *self.section, f"phase_{self.phase:g}" if self.phase else ""
-            ), drawing
-        if kind == "stability":
-            pins = () if self.pin is None else (chosen_pin(result, self.pin, with_clearance=False),)
-            return kind, stability_map.stability_map(result.scenario, pins)
-        pin = chosen_pin(result, self.pin, with_clearance=kind == "orbit")
-        draw = orbit.orbit if kind == "orbit" else spectrum.force_spectrum
-        return f"{kind}_{pin}", draw(result, pin, *self.ends)
+
+def _of_pin(
+    kind: str,
+    result: Result,
+    pin: str | None,
+    ends: tuple[float, float],
+    phase: float,
+    section: tuple[str, ...],
+) -> tuple[str, Figure]:
+    if kind == "poincare":
+        pin = next((joint for joint in clearance_joints(result) if pin in (None, joint)), None)
+        pair = matching(result.channels, section)
+        drawing = poincare.poincare(result, pin, *ends, phase=phase, channels=pair)
+        return joined(kind, pin or "", *section, f"phase_{phase:g}" if phase else ""), drawing
+    if kind == "stability":
+        pins = () if pin is None else (chosen_pin(result, pin, with_clearance=False),)
+        return kind, stability_map.stability_map(result.scenario, pins)
+    pin = chosen_pin(result, pin, with_clearance=kind == "orbit")
+    draw = orbit.orbit if kind == "orbit" else spectrum.force_spectrum
+    return f"{kind}_{pin}", draw(result, pin, *ends)
 
 
 def of_several(

@@ -50,9 +50,9 @@ def overlay(
     panels = of_runs(runs, _channels(runs, channels, len(curves)), after, until)
     end, notes = max(float(one.time[-1]) for one in runs.values()), []
     for look, (name, file) in zip(CURVES[len(runs) :], curves.items(), strict=False):
-        series = {channel: file.series[channel] for channel in panels if channel in file.series}
-        drawn = 0
-        for channel, one in series.items():
+        drawn, beyond = 0, 0
+        for channel in (channel for channel in panels if channel in file.series):
+            one = file.series[channel]
             unit = next(run.unit(channel) for run in runs.values() if channel in run.channels)
             values = converted(one, unit)
             chosen = (one.time >= after) & (one.time <= min(until, end)) & np.isfinite(values)
@@ -60,10 +60,13 @@ def overlay(
             if count:
                 curve = Curve(name, one.time[chosen], values[chosen], np.zeros(count), look[0], dashes)
                 panels[channel].append(curve)
-            drawn += count
+            drawn, beyond = drawn + count, max(beyond, int((one.time > end).sum()))
         if not drawn:
-            raise InputError(_none_drawn(file, list(panels), (max(after, 0.0), min(until, end))))
-        beyond = max(int((one.time > end).sum()) for one in series.values())
+            raise InputError(
+                f"{file.path}: has no number of {', '.join(list(panels)[:6])} from {max(after, 0.0):g} to "
+                f"{min(until, end):g} s; allowed: series of such names, with times within the run; it has "
+                f"{', '.join(list(file.series)[:6])}"
+            )
         if beyond and until >= end:
             notes.append(f"{beyond} points of {name}")
     title = f"{_several([*runs, *curves])}, {window_text(next(iter(runs.values())), after, until)}"
@@ -87,20 +90,6 @@ def of_runs(
     return panels
 
 
-def _none_drawn(file: SeriesFile, channels: Sequence[str], ends: tuple[float, float]) -> str:
-    """Why nothing of a file is drawn: it lacks the channels, or its times are others."""
-    times = [file.series[channel].time for channel in channels if channel in file.series]
-    if times:
-        return (
-            f"{file.path}: its times, {times[0][0]:g} to {times[0][-1]:g} s, have no number between "
-            f"{ends[0]:g} and {ends[1]:g} s; allowed: some within the run"
-        )
-    return (
-        f"{file.path}: has a series of none of these channels; allowed: names such as {channels[0]}; it has "
-        f"{', '.join(list(file.series)[:6])}"
-    )
-
-
 def difference(
     runs: Mapping[str, Result], channels: Sequence[str], after: float = 0.0, until: float = math.inf
 ) -> Figure:
@@ -109,16 +98,16 @@ def difference(
     Arguments, and what is raised, are those of `overlay`.
     """
     (reference, first), *others = runs.items()
-    names = [channel for channel in _channels(runs, channels) if channel in first.channels]
-    panels: dict[str, list[Curve]] = {channel: [] for channel in names}
-    for (name, run), look in zip(others, CURVES, strict=False):
-        mine, its = common_records(first, run, after, until)
-        for channel in (one for one in names if one in run.channels):
-            known = error_over_time(first, channel), error_over_time(run, channel)
-            band = None if known[0] is None or known[1] is None else known[0][mine] + known[1][its]
-            values = run[channel][its] - first[channel][mine]
-            panels[channel].append(Curve(f"{name} less {reference}", first.time[mine], values, band, *look))
-    panels = {channel: curves for channel, curves in panels.items() if curves}
+    panels: dict[str, list[Curve]] = {}
+    for channel in (name for name in _channels(runs, channels) if name in first.channels):
+        for (name, run), look in zip(others, CURVES, strict=False):
+            if channel in run.channels:
+                mine, its = common_records(first, run, after, until)
+                known = error_over_time(first, channel), error_over_time(run, channel)
+                band = None if known[0] is None or known[1] is None else known[0][mine] + known[1][its]
+                values = run[channel][its] - first[channel][mine]
+                curve = Curve(f"{name} less {reference}", first.time[mine], values, band, *look)
+                panels.setdefault(channel, []).append(curve)
     if not panels:
         raise InputError(
             f"{', '.join(runs)}: have none of these channels in common; allowed: runs of like machines"
@@ -134,10 +123,15 @@ def _channels(runs: Mapping[str, Result], patterns: Sequence[str], others: int =
     names = matching(known, patterns)
     if not 1 <= len(names) <= MOST:
         raise InputError(f"{len(names)} channels match; allowed in a figure of several runs: 1 to {MOST}")
+    check_units(runs, names)
+    return names
+
+
+def check_units(runs: Mapping[str, Result], names: Sequence[str]) -> None:
+    """Raise InputError if a channel has two units."""
     for name in names:
         if len(found := {run.unit(name) for run in runs.values() if name in run.channels}) > 1:
             raise InputError(f"{name}: is in {' and in '.join(sorted(found))}; allowed: one unit")
-    return names
 
 
 def _several(runs: Iterable[str]) -> str:
@@ -159,11 +153,11 @@ def draw(
         name: next(run for run in runs.values() if name in run.channels).channels[name] for name in panels
     }
     rows, _ = draw_panels(drawing, [(channels[name].unit, curves) for name, curves in panels.items()])
+    handles = {}
     for axes, (name, channel) in zip(rows, channels.items(), strict=True):
         axes.set_title(f"{what}{name}: {channel.meaning}", fontsize=8)
         label_values(axes, quantity(channel.unit, (name,)), unit_of(axes))
-    labelled = [axes.get_legend_handles_labels() for axes in rows]
-    handles = {label: line for lines, labels in labelled for line, label in zip(lines, labels, strict=True)}
+        handles |= dict(zip(*reversed(axes.get_legend_handles_labels()), strict=True))
     name_curves(rows[0], handles, 1.12)
     every = [curve for curves in panels.values() for curve in curves]
     marks = " (few points of a file: markers)" if any(not curve.dashes for curve in every) else ""

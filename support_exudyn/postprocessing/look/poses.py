@@ -206,7 +206,7 @@ def named_ends(linkage: Linkage | SpatialLinkage) -> list[tuple[str, str, tuple[
 
 
 def joined_points(linkage: Linkage) -> dict[str, list[Vector2]]:
-    """The points of every body, and of the ground, at which pins, actuators and traced points are, start posture."""
+    """Points of pins, actuators and traced points by body, and of the ground, start posture [m]."""
     points: dict[str, list[Vector2]] = {name: [] for name in (GROUND, *linkage.bodies)}
     for _, body, (x, y) in named_ends(linkage):
         points[body].append((x, y))

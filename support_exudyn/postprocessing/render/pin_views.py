@@ -64,7 +64,7 @@ class PinView:
         return max(1.0, round_up(SHOWN * bearing.bore_radius / bearing.clearance))
 
     def enlarged(self, records: int | slice, radius: float) -> tuple[Series, float]:
-        """The journal's centre from the bore's, and the journal's radius, in the unit of the drawn bore's radius."""
+        """The journal's centre from the bore's, and its radius, in the unit of the drawn bore's radius."""
         assert self.pin.with_clearance is not None
         bearing = self.pin.with_clearance.contact.bearing
         scale = self.enlargement * radius / bearing.bore_radius

@@ -122,7 +122,7 @@ def model_for_viewer(scenario: Scenario, views: Sequence[PinView] = (), time: Se
 
 
 def _inset(view: PinView, centre: Series, radius: float, usual_force: float, record: int) -> Iterator[Graphics]:
-    """A journal in its bore at a record, and the force on it; the arrow of the usual force is as long as the radius.
+    """A journal in its bore at a record, and the force on it: the usual one is as long as the radius.
 
     centre, radius: of the drawn bore [m].
     """
