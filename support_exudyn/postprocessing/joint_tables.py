@@ -1,7 +1,7 @@
 """What contacts, pins and legs are and did, as tables: laws, contact pressures, vibration, events of oil."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -76,20 +76,18 @@ def hardest_pressed(result: Result) -> list[PressedPin]:
 def pressure_table(title: str, pins: Sequence[PressedPin]) -> ResultTable:
     """Pin, force, pressure, its share of first yield, half contact angle, depth, stiffness, kind of contact."""
     rows: list[tuple[str, ...]] = []
-    for one, data in zip(pins, pressure_data(pins), strict=True):
-        pressure, angle, stiffness = (
-            data[key] for key in ("peak_pressure_Pa", "half_angle_rad", "stiffness_N_per_m")
-        )
+    for one in pins:
         kind = "length unknown" if one.length is None else "beyond the theory"
+        line = one.line
         rows.append((
             one.name,
             amount(one.force, "N", DIGITS),
-            "" if pressure is None else amount(pressure, "Pa", DIGITS),
-            "" if data["share_of_first_yield"] is None else f"{100.0 * one.yield_share:.{DIGITS}g} %",
-            "" if angle is None else f"{math.degrees(angle):.{DIGITS}g}°",
-            "" if data["depth_m"] is None else amount(one.depth, "m", DIGITS),
-            "" if stiffness is None else f"{stiffness / 1e9:.{DIGITS}g} MN/mm",
-            kind if one.line is None else "conformal" if one.line.conformal else "line",
+            amount(line.peak_pressure, "Pa", DIGITS) if line else "",
+            _known(one.yield_share, lambda share: f"{100.0 * share:.{DIGITS}g} %"),
+            f"{math.degrees(line.half_angle):.{DIGITS}g}°" if line else "",
+            _known(one.depth, lambda depth: amount(depth, "m", DIGITS)),
+            _known(one.stiffness, lambda stiffness: f"{stiffness / 1e9:.{DIGITS}g} MN/mm"),
+            kind if line is None else "conformal" if line.conformal else "line",
         ))  # fmt: skip
     numbers = (">force", ">peak pressure", ">of first yield", ">half angle", ">depth", ">stiffness")
     notes = [f"warning: {one.warning}" for one in pins if one.warning]
@@ -104,18 +102,22 @@ def pressure_data(pins: Sequence[PressedPin]) -> list[dict[str, Any]]:
             "force_N": one.force,
             "length_m": one.length,
             "peak_pressure_Pa": one.line and one.line.peak_pressure,
-            "share_of_first_yield": _known(one.yield_share),
+            "share_of_first_yield": _finite(one.yield_share),
             "half_angle_rad": one.line and one.line.half_angle,
-            "depth_m": _known(one.depth),
-            "stiffness_N_per_m": _known(one.stiffness),
+            "depth_m": _finite(one.depth),
+            "stiffness_N_per_m": _finite(one.stiffness),
             "conformal": one.line and one.line.conformal,
         }
         for one in pins
     ]
 
 
-def _known(number: float) -> float | None:
+def _finite(number: float) -> float | None:
     return number if math.isfinite(number) else None
+
+
+def _known(number: float, words: Callable[[float], str]) -> str:
+    return words(number) if math.isfinite(number) else ""
 
 
 # --- friction-induced vibration ---
@@ -123,7 +125,6 @@ def _known(number: float) -> float | None:
 
 def stability_table(outlooks: Sequence[PinOutlook]) -> ResultTable:
     """Pin, verdict, growth rate, frequency, travel of the drive there, friction there and the critical one."""
-    header = ("pin", "sliding", ">growth rate", ">frequency", ">worst at", ">friction", ">vibrates from")
     rows: list[tuple[str, ...]] = []
     for one, data in zip(outlooks, stability_data(outlooks), strict=True):
         pin = f"{one.pin}, if it had such play" if one.assumed else one.pin
@@ -133,7 +134,6 @@ def stability_table(outlooks: Sequence[PinOutlook]) -> ResultTable:
         vibrates = any(found is not None and not found.stable for found in one.found)
         # without rounding where nothing grows
         growth = min(data["growth_rate_per_s"], 0.0) if one.stable else data["growth_rate_per_s"]
-        critical = data["critical_friction"]
         rows.append((
             pin,
             "vibrates" if vibrates else "stable" if one.stable else "in part nowhere at rest",
@@ -141,11 +141,11 @@ def stability_table(outlooks: Sequence[PinOutlook]) -> ResultTable:
             amount(data["frequency_Hz"], "Hz", DIGITS) if data["frequency_Hz"] else "none",
             f"{math.degrees(data['travel']):.0f} deg" if one.turns else f"{1e3 * data['travel']:.0f} mm",
             f"{data['friction']:.{DIGITS}g}",
-            "none up to 1" if critical is None else f"{critical:.{DIGITS}g}",
+            _known(one.critical_friction, lambda friction: f"{friction:.{DIGITS}g}") or "none up to 1",
         ))  # fmt: skip
-    return ResultTable(
-        "friction-induced vibration of loaded pins, at the worst posture of the stroke", header, rows
-    )
+    title = "friction-induced vibration of loaded pins, at the worst posture of the stroke"
+    header = ("pin", "sliding", ">growth rate", ">frequency", ">worst at", ">friction", ">vibrates from")
+    return ResultTable(title, header, rows)
 
 
 def stability_data(outlooks: Sequence[PinOutlook]) -> list[dict[str, Any]]:
@@ -153,13 +153,8 @@ def stability_data(outlooks: Sequence[PinOutlook]) -> list[dict[str, Any]]:
     found = []
     for one in outlooks:
         pin = None if one.worst is None else one.found[one.worst]
-        data: dict[str, Any] = {
-            "pin": one.pin,
-            "assumed": one.assumed,
-            "stable": one.stable,
-            "growth_rate_per_s": None,
-            "critical_friction": _known(one.critical_friction),
-        }
+        data: dict[str, Any] = {"pin": one.pin, "assumed": one.assumed, "stable": one.stable}
+        data |= {"growth_rate_per_s": None, "critical_friction": _finite(one.critical_friction)}
         if one.worst is not None and pin is not None:
             data |= {
                 "growth_rate_per_s": pin.growth,

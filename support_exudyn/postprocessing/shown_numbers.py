@@ -69,34 +69,25 @@ def shown(
     """
     first = [f"{joint}{end}" for found in found_of for joint in hardest_first(found) for end in WHOLE_RUN]
     names = list(dict.fromkeys([*first, *(name for found in found_of for name in found)]))
-    left_out: set[str] = set()
     if all(after <= run.time[0] and until >= run.time[-1] for run in runs):
-        repeated = {
-            name: f"{name.rpartition('.force.')[0]}{LARGEST}" for name in names if name.endswith(IN_WINDOW)
-        }
-        left_out = {
-            name
-            for name, whole in repeated.items()
-            if all(whole in found for found in found_of if name in found)
-        }
+
+        def repeats(name: str) -> bool:
+            whole = f"{name.rpartition('.force.')[0]}{LARGEST}"
+            return name.endswith(IN_WINDOW) and all(whole in found for found in found_of if name in found)
+
+        names = [name for name in names if not repeats(name)]
+
+    def is_vague(name: str, number: Estimate, run: Result) -> bool:
+        """Whether a time may be that of another peak; never where its error is not known."""
+        first, last = float(run.time[0]), float(run.time[-1])
+        if not name.endswith(LARGEST_TIME):
+            first, last = max(first, after), min(last, until)
+        return name.endswith("_time") and number.error > VAGUE * (last - first)
+
+    pairs = [*zip(runs, found_of, strict=True)]
     return [
-        {
-            name: found[name]
-            for name in names
-            if name in found and name not in left_out and not _is_vague(name, found[name], run, after, until)
-        }
-        for run, found in zip(runs, found_of, strict=True)
+        {n: found[n] for n in names if n in found and not is_vague(n, found[n], run)} for run, found in pairs
     ]
-
-
-def _is_vague(name: str, number: Estimate, run: Result, after: float, until: float) -> bool:
-    """Whether a time of a largest value may be that of another peak; never where its error is not known."""
-    if not name.endswith("_time"):
-        return False
-    first, last = float(run.time[0]), float(run.time[-1])
-    if not name.endswith(LARGEST_TIME):
-        first, last = max(first, after), min(last, until)
-    return number.error > VAGUE * (last - first)
 
 
 def label(name: str) -> str:

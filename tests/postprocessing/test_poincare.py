@@ -29,16 +29,6 @@ def swinging(share: float) -> Result:
     )
 
 
-def test_periods_are_those_of_the_drives() -> None:
-    assert period(SCENARIO) == PERIOD
-    assert period(loose_slider_crank(0.02)) == pytest.approx(2.0 * math.pi / CRANK_SPEED)
-    assert period(loose_support(1.5)) is None  # a rise
-    apart = {"rear_column": Held()}
-    assert period(replace(SCENARIO, drives=apart)) == PERIOD
-    assert period(replace(SCENARIO, drives={"rear_column": Reciprocating(stroke=0.2, period=0.7)})) is None
-    assert period(replace(SCENARIO, drives={"rear_column": CubicStep()})) is None
-
-
 @pytest.mark.parametrize(("share", "points"), [(1.0, 1), (0.5, 2), (1.0 / 3.0, 3)])
 def test_a_motion_of_n_periods_is_n_points(share: float, points: int) -> None:
     (marks,) = [
@@ -81,3 +71,12 @@ def test_without_a_period_touches_make_the_section() -> None:
     assert places.lines[1].get_xdata() == pytest.approx([0.0] * 4)  # deg
     assert returns.get_xlabel() == "initial impact velocity of an impact [mm/s]"
     assert "by impacts" in drawing.get_suptitle()
+
+
+def test_periods_are_those_of_the_drives() -> None:
+    assert period(SCENARIO) == PERIOD
+    assert period(loose_slider_crank(0.02)) == pytest.approx(2.0 * math.pi / CRANK_SPEED)
+    assert period(loose_support(1.5)) is None  # a rise
+    others = ((Held(), PERIOD), (Reciprocating(stroke=0.2, period=0.7), None), (CubicStep(), None))
+    for other, expected in others:
+        assert period(replace(SCENARIO, drives={"rear_column": other})) == expected

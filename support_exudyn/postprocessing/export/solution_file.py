@@ -25,7 +25,7 @@ from support_exudyn.mechanics.body_motion import UNTURNED, parameter_rates
 from support_exudyn.mechanics.channels import chosen
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.postprocessing.figures.selection import machine_name
-from support_exudyn.postprocessing.look.poses import WHY, Poses
+from support_exudyn.postprocessing.look.poses import WHY, Pose
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError, cleaned
@@ -45,15 +45,9 @@ IN_SPACE = (
 
 
 def rows(result: Result, of: EngineScene) -> Solution:
-    """The records of a run as the engine's viewer takes them.
+    """The records of a run as the engine's viewer takes them, and as its `LoadSolutionFile` reads its files.
 
-    Arguments:
-        result: the run.
-        of: the model of its scenario.
-
-    Returns:
-        What `exudyn.utilities.LoadSolutionFile` gives for its solution file: `data` with a row for each record,
-        `columnsExported`, `nColumns` and `nRows`.
+    of: the model of the run's scenario.
 
     Raises InputError if the run has not recorded where its bodies are.
     """
@@ -66,12 +60,8 @@ def rows(result: Result, of: EngineScene) -> Solution:
         first, end = 1 + item.first, 1 + item.first + place.shape[1]
         data[:, first:end] = place
         data[:, size + first : size + end] = rate
-    return {
-        "data": data,
-        "columnsExported": [size, size, 0, 0, 0, 0, 0],
-        "nColumns": 2 * size,
-        "nRows": len(data),
-    }
+    columns = [size, size, 0, 0, 0, 0, 0]
+    return {"data": data, "columnsExported": columns, "nColumns": 2 * size, "nRows": len(data)}
 
 
 def save_solution(result: Result, path: str | Path) -> Path:
@@ -93,23 +83,19 @@ def save_solution(result: Result, path: str | Path) -> Path:
     try:
         solution = rows(result, scene)
         with whole_file(path) as temporary, quiet_engine():
-            _write_rows(scene.mbs, _settings(result, temporary), solution)
+            settings = _settings(result, temporary)
+            solver: Any = exudyn.MainSolverImplicitSecondOrder()  # its stubs lack self
+            solver.InitializeSolver(scene.mbs, settings)  # begins the file
+            state, size = scene.mbs.systemData, solution["columnsExported"][0]
+            for row in solution["data"]:
+                state.SetTime(row[0])
+                state.SetODE2Coordinates(row[1 : 1 + size])
+                state.SetODE2Coordinates_t(row[1 + size :])
+                solver.WriteCoordinatesToFile(scene.mbs, settings)
+            solver.FinalizeSolver(scene.mbs, settings)  # ends and closes it
     finally:
         scene.release()
     return Path(path)
-
-
-def _write_rows(mbs: Any, settings: Any, solution: Solution) -> None:
-    """Give the model every row as its state, and have the engine's solver write it."""
-    solver: Any = exudyn.MainSolverImplicitSecondOrder()  # its stubs lack self
-    solver.InitializeSolver(mbs, settings)  # begins the file
-    state, size = mbs.systemData, solution["columnsExported"][0]
-    for row in solution["data"]:
-        state.SetTime(row[0])
-        state.SetODE2Coordinates(row[1 : 1 + size])
-        state.SetODE2Coordinates_t(row[1 + size :])
-        solver.WriteCoordinatesToFile(mbs, settings)
-    solver.FinalizeSolver(mbs, settings)  # ends and closes it
 
 
 def _settings(result: Result, path: Path) -> Any:
@@ -138,7 +124,13 @@ def read_solution(path: str | Path) -> Solution:
     Raises InputError if it is not a whole one; OSError if it cannot be opened at all.
     """
     check_is_file(path, available() // TIMES)
-    _check_header(path)
+    with Path(path).open("rb") as file:  # the engine's reader evaluates the fifth line of a text
+        start = [file.readline(1000) for _ in range(HEADER)]
+    columns = COLUMNS.fullmatch(start[-1].decode("utf-8", "replace").strip())
+    if not start[0].startswith(BINARY_START) and not (columns and any(ast.literal_eval(columns.group(1)))):
+        raise InputError(
+            f"{path}: not a solution file of Exudyn; allowed: what `save_solution` or the engine has written"
+        )
     try:
         found: Solution = LoadSolutionFile(str(path), verbose=False)
         if not np.isfinite(found["data"]).all():
@@ -147,19 +139,6 @@ def read_solution(path: str | Path) -> Solution:
         said = cleaned(str(error))
         raise InputError(f"{path}: not a solution file of Exudyn, or damaged ({said})") from None
     return found
-
-
-def _check_header(path: str | Path) -> None:
-    """Raise InputError if the engine's reader should not be given the file: it evaluates its fifth line."""
-    with Path(path).open("rb") as file:
-        start = [file.readline(1000) for _ in range(HEADER)]
-    if start[0].startswith(BINARY_START):
-        return
-    found = COLUMNS.fullmatch(start[-1].decode("utf-8", "replace").strip())
-    if found is None or not any(ast.literal_eval(found.group(1))):
-        raise InputError(
-            f"{path}: not a solution file of Exudyn; allowed: what `save_solution` or the engine has written"
-        )
 
 
 def check_fits(solution: Solution, of: EngineScene, path: str | Path) -> None:
@@ -172,17 +151,12 @@ def check_fits(solution: Solution, of: EngineScene, path: str | Path) -> None:
 # --- coordinates ---
 
 
-def channels_of_bodies(scenario: Scenario) -> list[str]:
-    """Names of the channels from which the coordinates follow."""
-    if scenario.dimensions == 3:
-        return [f"{body}.{what}" for body in scenario.space.bodies for what in IN_SPACE]
-    return [f"{body}.{what}" for body in scenario.linkage.bodies for what in IN_PLANE]
-
-
 def check_recorded(scenario: Scenario) -> None:
     """Raise InputError if a run of the scenario will lack a channel from which the coordinates follow."""
     recorded = set(chosen(scenario.channel_definitions, scenario.channels))
-    missing = [name for name in channels_of_bodies(scenario) if name not in recorded]
+    in_space = scenario.dimensions == 3
+    bodies, names = (scenario.space.bodies, IN_SPACE) if in_space else (scenario.linkage.bodies, IN_PLANE)
+    missing = [f"{body}.{name}" for body in bodies for name in names if f"{body}.{name}" not in recorded]
     if missing:
         raise InputError(
             f"channels = {scenario.channels}: lacks {len(missing)} by which a solution file says where the "
@@ -197,13 +171,14 @@ def coordinates(result: Result) -> dict[str, tuple[Series, Series]]:
     They are what has changed since the start posture: place of the centre of mass [m], then the angle [rad],
     or the four Euler parameters. Raises InputError if a channel that this needs was not recorded.
     """
-    poses, scenario = Poses(result), result.scenario
-    moved: dict[str, tuple[Series, Series]] = {}
-    for name, body in scenario.linkage.bodies.items() if scenario.dimensions == 2 else ():
-        columns = np.column_stack([result.recorded(f"{name}.{what}", WHY) for what in IN_PLANE])
-        moved[name] = columns[:, :3] - [*body.centre, body.angle], columns[:, 3:]
-    for name in scenario.space.bodies if scenario.dimensions == 3 else ():
-        pose = poses.of(name)
+    scenario, moved = result.scenario, dict[str, tuple[Series, Series]]()
+    if scenario.dimensions == 2:
+        for name, body in scenario.linkage.bodies.items():
+            columns = np.column_stack([result.recorded(f"{name}.{what}", WHY) for what in IN_PLANE])
+            moved[name] = columns[:, :3] - [*body.centre, body.angle], columns[:, 3:]
+        return moved
+    for name in scenario.space.bodies:
+        pose = Pose(result, name)
         parameters = euler_parameters(pose.turn)
         place = np.hstack([pose.place - pose.start, parameters - UNTURNED])
         moved[name] = place, np.hstack([pose.velocity, parameter_rates(parameters, pose.spin)])

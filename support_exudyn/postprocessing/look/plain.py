@@ -13,7 +13,7 @@ from support_exudyn.model.guides import Guide
 from support_exudyn.model.linkage import GROUND, Linkage, Slide
 from support_exudyn.model.loads.springs import SpringDamper
 from support_exudyn.model.to_space import at, copies, pairs_of
-from support_exudyn.postprocessing.look.poses import named_ends, planar_pins
+from support_exudyn.postprocessing.look.poses import joined_points, planar_pins
 from support_exudyn.postprocessing.look.shapes import (
     ROUND,
     Look,
@@ -47,7 +47,7 @@ def look(scenario: Scenario) -> Look:
     is seen.
     """
     linkage = scenario.linkage
-    points = joined_points(linkage)
+    points = body_points(linkage)
     for load in scenario.acting_loads.values():
         if isinstance(load, SpringDamper):
             for name, end in ((load.body, load.point), (load.other, load.other_point)):
@@ -138,18 +138,19 @@ def _actuator(scenario: Scenario, name: str, radius: float) -> Iterator[Shape]:
         yield from strut.shapes(*meshes)
 
 
-def joined_points(linkage: Linkage) -> dict[str, list[Vector2]]:
-    """The points of every body, and of the ground, at which something is joined or traced, start posture."""
-    joined: dict[str, list[Vector2]] = {name: [body.centre] for name, body in linkage.bodies.items()}
-    slides = [(slide.against, slide.point) for slide in linkage.slides.values()]
-    for body, (x, y) in (*((body, point) for _, body, point in named_ends(linkage)), *slides):
-        joined.setdefault(body, []).append((x, y))
-    return joined
+def body_points(linkage: Linkage) -> dict[str, list[Vector2]]:
+    """The centre of every body, and its points, and the ground's, at which something is joined or traced."""
+    points = joined_points(linkage)
+    for slide in linkage.slides.values():
+        points[slide.against].append(slide.point)
+    for name, body in linkage.bodies.items():
+        points[name].append(body.centre)
+    return {name: around for name, around in points.items() if around}
 
 
 def extent(linkage: Linkage) -> float:
     """The longest side of the box around all points of a linkage [m]; 1 if there is but one."""
-    points = np.array([point for around in joined_points(linkage).values() for point in around])
+    points = np.array([point for around in body_points(linkage).values() for point in around])
     return float(np.ptp(points, axis=0).max()) or 1.0
 
 

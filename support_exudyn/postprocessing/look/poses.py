@@ -10,9 +10,9 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from support_exudyn.mechanics.trajectory import Series
-from support_exudyn.model.linkage import GROUND, Body, Linkage
+from support_exudyn.model.linkage import GROUND, Linkage
 from support_exudyn.model.pins import ClearancePin
-from support_exudyn.model.spatial_linkage import SpatialBody, SpatialLinkage
+from support_exudyn.model.spatial_linkage import SpatialLinkage
 from support_exudyn.model.to_space import at
 from support_exudyn.postprocessing.look.shapes import Shape
 from support_exudyn.scenario.scenario import Scenario
@@ -46,6 +46,8 @@ class Frame(NamedTuple):
 class Pose:
     """A body of a run at its records, ground's axes; a channel is read when it is needed.
 
+    start: the centre of mass in the start posture (3,) [m].
+
     Arguments:
         result: the run.
         body: name of the body, or "ground".
@@ -53,11 +55,11 @@ class Pose:
 
     def __init__(self, result: Result, body: str) -> None:
         self._result, self._body = result, body
-        self._in_space = result.scenario.dimensions == 3
-        self._known: Body | SpatialBody | None = None
-        if body != GROUND:
-            scenario = result.scenario
-            self._known = (scenario.space if self._in_space else scenario.linkage).bodies[body]
+        scenario = result.scenario
+        self._in_space = scenario.dimensions == 3
+        bodies = (scenario.space if self._in_space else scenario.linkage).bodies
+        self._known = None if body == GROUND else bodies[body]
+        self.start: Series = np.array([*(self._known.centre if self._known else ()), 0.0, 0.0, 0.0][:3])
 
     def _columns(self, *names: str) -> Series:
         """Channels side by side (n, 3); those out of the plane are zero for a run in the plane."""
@@ -67,11 +69,6 @@ class Pose:
             zero if still else self._result.recorded(f"{self._body}.{name}", WHY)
             for name, still in zip(names, is_zero, strict=True)
         ])  # fmt: skip
-
-    @cached_property
-    def start(self) -> Series:
-        """The centre of mass in the start posture (3,) [m]."""
-        return np.array([*(self._known.centre if self._known else ()), 0.0, 0.0, 0.0][:3])
 
     @cached_property
     def place(self) -> Series:
@@ -102,9 +99,8 @@ class Pose:
         """The axes at a record in which the body's points have the coordinates of the start posture."""
         turn = self.turn[record]
         turning = np.cross(self.spin[record], turn.T).T
-        return Frame(
-            self.place[record] - turn @ self.start, turn, self.velocity[record] - turning @ self.start, turning
-        )
+        origin, velocity = self.place[record] - turn @ self.start, self.velocity[record] - turning @ self.start
+        return Frame(origin, turn, velocity, turning)
 
     def path(self, point: Vector3) -> Series:
         """The places of a point of the start posture at all records (n, 3) [m]."""
@@ -127,12 +123,10 @@ class Poses:
         if shape.strut is None:
             return self.of(shape.body).frame(record)
         bodies = [(self.of(body).frame(record), np.array(point)) for body, point in shape.strut.ends]
-        (foot, head), (slow, fast) = (
-            [frame.points(point) for frame, point in bodies],
-            [frame.velocities(point) for frame, point in bodies],
-        )
-        axes, turning = axes_along(head - foot, fast - slow)
-        return Frame((foot, head)[shape.end], axes, (slow, fast)[shape.end], turning)
+        places = [frame.points(point) for frame, point in bodies]
+        rates = [frame.velocities(point) for frame, point in bodies]
+        axes, turning = axes_along(places[1] - places[0], rates[1] - rates[0])
+        return Frame(places[shape.end], axes, rates[shape.end], turning)
 
 
 def turned(angle: Series, roll: Series, yaw: Series) -> Series:
@@ -265,11 +259,9 @@ def placed_pins(scenario: Scenario) -> list[PlacedPin]:
 
 def planar_pins(scenario: Scenario) -> dict[str, PlacedPin]:
     """The pins of the plane, by name, also of a scenario in space."""
-    loose = scenario.clearance_pins
-    return {
-        name: PlacedPin(
-            name, PinEnd(p.first, at(p.first_point, 0.0)), PinEnd(p.second, at(p.second_point, 0.0)),
-            loose.get(name),
-        )
-        for name, p in scenario.linkage.pins.items()
-    }  # fmt: skip
+    pins = {}
+    for name, pin in scenario.linkage.pins.items():
+        first, second = (at(point, 0.0) for point in (pin.first_point, pin.second_point))
+        loose = scenario.clearance_pins.get(name)
+        pins[name] = PlacedPin(name, PinEnd(pin.first, first), PinEnd(pin.second, second), loose)
+    return pins
