@@ -12,11 +12,11 @@ from markupsafe import Markup
 from matplotlib.figure import Figure
 from PIL import Image
 
-from support_exudyn.model.linkage import GROUND
 from support_exudyn.model.machine import Machine
 from support_exudyn.postprocessing import summary
 from support_exudyn.postprocessing.figures import overlay, style
 from support_exudyn.postprocessing.figures.linkage_drawing import machine_drawing
+from support_exudyn.postprocessing.figures.of_runs import usual
 from support_exudyn.postprocessing.figures.selection import machine_name, matching
 from support_exudyn.postprocessing.joint_tables import hardest_pressed, pressure_table
 from support_exudyn.postprocessing.page.live import LiveFigure, of_drawing
@@ -39,13 +39,13 @@ def run_report(runs: Mapping[str, Result], channels: Sequence[str] = ()) -> str:
 
     Arguments:
         runs: by the names that the page calls them; at least one.
-        channels: names, or patterns of them as in a shell, that are drawn over time. Without: forces of the
-            clearance pins (of all pins if there is none), spin of the bodies at them, and traced points.
+        channels: names, or patterns of them as in a shell, that are drawn over time; the usual ones by default.
 
     Raises InputError if a pattern matches no channel, or there is nothing to draw.
     """
     every = list(dict.fromkeys(name for result in runs.values() for name in result.channels))
-    names = matching(every, channels) if channels else _default(runs)
+    usual_ones = dict.fromkeys(name for result in runs.values() for name in usual(result))
+    names = matching(every, channels) if channels else list(usual_ones)[:MOST_CHANNELS]
     if not names or len(names) > MOST_CHANNELS:
         raise InputError(f"{len(names)} channels to draw over time; allowed: 1 to {MOST_CHANNELS}")
     drawing, live = _over_time(runs, names)
@@ -76,22 +76,6 @@ def run_report(runs: Mapping[str, Result], channels: Sequence[str] = ()) -> str:
 
 
 # --- channels ---
-
-
-def _default(runs: Mapping[str, Result]) -> list[str]:
-    """Forces of pins, spin of the bodies at them, and traced points, as far as they were recorded."""
-    loose = list(dict.fromkeys(pin for result in runs.values() for pin in result.scenario.clearance_pins))
-    found: dict[str, None] = {}
-    for result in runs.values():
-        linkage = result.scenario.linkage
-        pins = [pin for pin in loose or linkage.pins if pin in linkage.pins]
-        places = [linkage.pins[pin] for pin in pins] if loose else []
-        bodies = [place.first if place.second == GROUND else place.second for place in places]
-        wanted = [(f"pin.{pin}", ".force") for pin in pins] + [(body, ".angular_velocity") for body in bodies]
-        wanted += [(f"{point}.", axis) for point in linkage.points for axis in "xy"]
-        for start, end in wanted:  # in space there are several of a name, left and right
-            found |= dict.fromkeys(n for n in result.channels if n.startswith(start) and n.endswith(end))
-    return list(found)
 
 
 def _over_time(runs: Mapping[str, Result], names: Sequence[str]) -> tuple[Figure, LiveFigure]:

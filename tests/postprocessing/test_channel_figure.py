@@ -9,6 +9,7 @@ import pytest
 
 from support_exudyn import Onset, Result
 from support_exudyn.postprocessing.figures.channels import error_over_time, over_time
+from support_exudyn.postprocessing.figures.overlay import difference, overlay
 from support_exudyn.postprocessing.figures.units import readable
 from tests import figure_checks, synthetic
 from tests.cases.run_cases import loose_support
@@ -91,3 +92,31 @@ def test_errors_are_those_of_the_estimate() -> None:
     value = 1e-3 * found["rear_column.force"][130]
     assert [at.min(), at.max()] == pytest.approx([value - 1e-3 * errors[130], value + 1e-3 * errors[130]])
     assert "rear_column.force" in figure_checks.words_below(drawing)
+
+
+# --- several runs ---
+
+TIMES = np.linspace(0.0, 2.0, 201)
+
+
+def moved(shift: float, time: np.ndarray) -> Result:
+    still = np.zeros_like(time)
+    return synthetic.journal(SCENARIO, time, still, still, [], tip__x=(3.0 + shift * np.sin(time), "m"))
+
+
+def test_every_run_has_a_curve_in_the_panel_of_its_channel() -> None:
+    drawing = overlay({"a": moved(0.1, TIMES), "b": moved(0.2, TIMES)}, ["tip.x"])
+    (axes,) = drawing.axes
+    assert [line.get_label() for line in axes.lines] == ["a", "b"]
+    assert axes.lines[1].get_ydata() == pytest.approx(3000.0 + 200.0 * np.sin(TIMES))
+    assert axes.get_ylabel() == "position [mm]"
+    assert drawing.get_suptitle() == "a and b, 0 to 2 s"
+
+
+def test_a_difference_is_taken_where_both_have_records() -> None:
+    drawing = difference({"a": moved(0.1, TIMES), "b": moved(0.3, TIMES[::2])}, ["tip.x"], until=1.0)
+    (line,) = drawing.axes[0].lines
+    shared = TIMES[::2][TIMES[::2] <= 1.0]
+    assert line.get_xdata() == pytest.approx(shared)
+    assert line.get_ydata() == pytest.approx(200.0 * np.sin(shared))
+    assert drawing.get_suptitle() == "b less a, 0 to 1 s"

@@ -106,13 +106,17 @@ def curves(tmp_path: Path) -> Path:
     return made.save(tmp_path / "run.h5")
 
 
-def test_runs_are_told_from_curves_by_their_content(curves: Path, tmp_path: Path) -> None:
+def test_curves_of_any_readable_file_are_drawn_upon_those_of_a_run(curves: Path, tmp_path: Path) -> None:
     (tmp_path / "broken.h5").write_bytes(b"nothing")
     (tmp_path / "run.toml").write_text("a = 1\n", encoding="utf-8")
     names = ["run.h5", "broken.h5", "run.toml", "exported.h5", "measured.parquet", "measured.csv", "none.csv"]
     files, channels = files_and_channels([str(tmp_path / name) for name in [*names, "none.h5"]] + ["tip.*"])
     assert channels == ["tip.*"]
     assert [path.name for path in files if is_of_others(path)] == names[3:]
+    others = [str(tmp_path / name) for name in ("measured.parquet", "measured.csv")]
+    assert main(["plot", str(curves), *others, "--out", str(tmp_path / "figures")]) == 0
+    (drawn,) = (tmp_path / "figures").glob("*.png")
+    assert drawn.name == "run_and_measured.parquet_and_measured.csv_overview.png"
 
 
 # --- run and show ---

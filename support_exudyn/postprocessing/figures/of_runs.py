@@ -109,7 +109,7 @@ def of_several(
 def usual(result: Result) -> list[str]:
     """Channels that are drawn unless some are named: forces and motion."""
     scenario, joints = result.scenario, clearance_joints(result)
-    names = [f"pin.{joints[0]}.{what}" for what in ("force", "depth")] if joints else []
+    names = [f"pin.{joint}.force" for joint in joints] + [f"pin.{joint}.depth" for joint in joints[:1]]
     guides = [name for name, guide in scenario.guides.items() if guide.contacts()]
     names += [f"guide.{name}.{what}" for name in guides for what in ("force", "gap_upper", "gap_lower")]
     names = names or [f"pin.{pin}.force" for pin in scenario.linkage.pins]

@@ -125,8 +125,9 @@ class Poses:
         bodies = [(self.of(body).frame(record), np.array(point)) for body, point in shape.strut.ends]
         places = [frame.points(point) for frame, point in bodies]
         rates = [frame.velocities(point) for frame, point in bodies]
-        axes, turning = axes_along(places[1] - places[0], rates[1] - rates[0])
-        return Frame(places[shape.end], axes, rates[shape.end], turning)
+        way, rate = places[1] - places[0], rates[1] - rates[0]
+        axes, spin = axes_along(way), np.cross(way, rate) / (way @ way)  # no strut turns about itself
+        return Frame(places[shape.end], axes, rates[shape.end], np.cross(spin, axes.T).T)
 
 
 def turned(angle: Series, roll: Series, yaw: Series) -> Series:
@@ -159,30 +160,17 @@ ACROSS, UP = np.array([0.0, 0.0, 1.0]), np.array([0.0, 1.0, 0.0])
 ALONG_Z = 0.99  # cosine, above which a direction has no use for z as its neighbour
 
 
-def axes_along(way: Series, rate: Series) -> tuple[Series, Series]:
-    """Axes of a strut in columns (3, 3), and their rate [1/s].
+def axes_along(way: Series) -> Series:
+    """Axes of a strut in columns (3, 3).
 
     x runs from foot to head, z is as near to the ground's z as can be (to y if the strut stands along z).
 
-    Arguments:
-        way: from foot to head, shape (3,), not zero [m].
-        rate: of it [m/s].
+    way: from foot to head, shape (3,), not zero [m].
     """
-    length = np.linalg.norm(way)
-    x = way / length
-    neighbour = UP if abs(x @ ACROSS) > ALONG_Z else ACROSS
-    across = np.cross(neighbour, x)
+    x = way / np.linalg.norm(way)
+    across = np.cross(UP if abs(x @ ACROSS) > ALONG_Z else ACROSS, x)
     y = across / np.linalg.norm(across)
-    x_rate = _across(rate, x) / length
-    y_rate = _across(np.cross(neighbour, x_rate), y) / np.linalg.norm(across)
-    z_rate = np.cross(x_rate, y) + np.cross(x, y_rate)
-    return np.column_stack([x, y, np.cross(x, y)]), np.column_stack([x_rate, y_rate, z_rate])
-
-
-def _across(vector: Series, unit: Series) -> Series:
-    """The part of a vector at right angles to a unit vector."""
-    part: Series = vector - (vector @ unit) * unit
-    return part
+    return np.column_stack([x, y, np.cross(x, y)])
 
 
 # --- ends of joints, and pins ---

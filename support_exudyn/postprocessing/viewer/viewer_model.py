@@ -29,7 +29,7 @@ from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.value import Vector3
 
 Graphics = dict[str, Any]  # of the engine
-NO_TIMES, NO_RATE = np.zeros(1), np.zeros(3)
+NO_TIMES = np.zeros(1)
 SHOWN = exudyn.ConfigurationType.Visualization
 POSITION = exudyn.OutputVariableType.Position
 # --- insets ---
@@ -73,8 +73,7 @@ class ViewerModel:
         def placed() -> Graphics:
             assert shape.strut is not None  # of which this is a part
             ends = [self.place(*end) for end in shape.strut.ends]
-            axes = axes_along(ends[1] - ends[0], NO_RATE)[0]
-            moved: Graphics = graphics.Move(surface, ends[shape.end], axes)
+            moved: Graphics = graphics.Move(surface, ends[shape.end], axes_along(ends[1] - ends[0]))
             return moved
 
         return placed
@@ -82,7 +81,7 @@ class ViewerModel:
 
 def _centre(scene: EngineScene, body: str) -> Series:
     """A body's centre of mass in the start posture (3,) [m]; zero of the ground."""
-    return NO_RATE if body == GROUND else np.array([*scene.bodies[body].body.centre, 0.0][:3])
+    return np.zeros(3) if body == GROUND else np.array([*scene.bodies[body].body.centre, 0.0][:3])
 
 
 def _surface(shape: Shape) -> Graphics:
