@@ -4,7 +4,7 @@ import io
 from collections.abc import Sequence
 from html import escape
 from shutil import get_terminal_size
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 from user_forces.values.value import cleaned
 
@@ -66,13 +66,9 @@ class ResultTable(NamedTuple):
             box=box.SIMPLE_HEAD if header else None, show_header=bool(header), pad_edge=False, padding=(0, 1)
         )
         for head in heads:
-            side = "right" if head.startswith(">") else "left"
-            table.add_column(
-                plain(head.lstrip(">")) if header else "",
-                justify=side,
-                no_wrap=head not in WORDS,
-                overflow="fold",
-            )
+            side: Literal["left", "right"] = "right" if head.startswith(">") else "left"
+            word = plain(head.lstrip(">")) if header else ""
+            table.add_column(word, justify=side, no_wrap=head not in WORDS, overflow="fold")
         for row in rows:
             table.add_row(*(plain(cleaned(cell)) for cell in row))
         console = Console(file=io.StringIO(), width=max(room, needed))

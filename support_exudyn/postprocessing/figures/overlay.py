@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -153,7 +154,7 @@ def draw(
         name: next(run for run in runs.values() if name in run.channels).channels[name] for name in panels
     }
     rows, _ = draw_panels(drawing, [(channels[name].unit, curves) for name, curves in panels.items()])
-    handles = {}
+    handles: dict[str, Any] = {}
     for axes, (name, channel) in zip(rows, channels.items(), strict=True):
         axes.set_title(f"{what}{name}: {channel.meaning}", fontsize=8)
         label_values(axes, quantity(channel.unit, (name,)), unit_of(axes))

@@ -143,7 +143,7 @@ def _by_period(
             low, high = float(values[-1].min()), float(values[-1].max())
             margin = max(0.08 * (high - low), SAME * max(abs(low), abs(high)))
             limits.append((low - margin, high + margin))
-        _marked(panels[-1], *values, closed)
+        _marked(panels[-1], values[0], values[1], closed)
         panels[-1].set(xlabel=labels[0], ylabel=labels[1], xlim=limits[0], ylim=limits[1])
         panels[-1].ticklabel_format(useOffset=True)  # of a channel that hardly changes
         panels[-1].locator_params(nbins=4)

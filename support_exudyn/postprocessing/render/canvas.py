@@ -30,7 +30,8 @@ class Canvas:
         self._height = height
         # a hundredth of a pixel more: sizes are cut to whole pixels
         inches = (width + 0.01) / POINTS, (height + 0.01) / POINTS
-        self._figure = Figure(inches, dpi=POINTS, facecolor="white", layout="none")
+        self._figure = Figure(inches, dpi=POINTS, facecolor="white")
+        self._figure.set_layout_engine("none")
         self._canvas: Any = FigureCanvasAgg(self._figure)  # matplotlib has no types of it
         self.axes = self.axes_in((0, 0, width, height))
         self.axes.set(xlim=(0.0, width + 0.01), ylim=(height + 0.01, 0.0), zorder=1)
