@@ -11,6 +11,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from functools import cache
+from itertools import pairwise
 from pathlib import Path
 from typing import Any, Literal
 
@@ -175,23 +176,17 @@ def thinned(curves: Series, most: int) -> npt.NDArray[np.intp]:
     number = curves.shape[1]
     if number <= most:
         return np.arange(number, dtype=np.intp)
-    edges = np.linspace(0, number, max(1, most // (2 + len(curves))) + 1).astype(np.intp)
-    kept = [edges[:-1], edges[1:] - 1]
-    for y in curves:
-        finite = np.isfinite(y)
-        for filling, pick in ((np.inf, np.minimum), (-np.inf, np.maximum)):
-            filled = np.where(finite, y, filling)
-            extreme = np.repeat(pick.reduceat(filled, edges[:-1]), np.diff(edges))
-            kept.append(_first(finite & (filled == extreme), edges))
-        kept.append(_first(~finite, edges))
-    return np.unique(np.concatenate(kept))
-
-
-def _first(chosen: npt.NDArray[np.bool_], edges: npt.NDArray[np.intp]) -> npt.NDArray[np.intp]:
-    """The first chosen index of every bin that has one."""
-    where = np.flatnonzero(chosen)
-    bins = np.searchsorted(edges, where, side="right")
-    return where[np.unique(bins, return_index=True)[1]].astype(np.intp)
+    edges = np.linspace(0, number, max(1, most // (2 + len(curves))) + 1).astype(int).tolist()
+    kept = {*edges[:-1], *(edge - 1 for edge in edges[1:])}
+    for start, end in pairwise(edges):
+        for y in curves[:, start:end]:
+            finite = np.isfinite(y)
+            if not finite.all():
+                kept.add(start + int(finite.argmin()))
+            if finite.any():
+                known = np.where(finite, y, np.nan)
+                kept |= {start + int(np.nanargmin(known)), start + int(np.nanargmax(known))}
+    return np.array(sorted(kept), dtype=np.intp)
 
 
 def _rounded(value: float) -> float:
