@@ -23,7 +23,7 @@ from support_exudyn.commands.command_line import (
 )
 from support_exudyn.scene.contract import error_text
 from support_exudyn.simulation.at_start import INSTALLED, be_interruptible
-from user_forces.values.texts import InputError
+from user_forces.values.names import InputError
 
 COMMANDS = {  # by group: of every command its module and a line of what it does
     "Before a run": {

@@ -13,7 +13,7 @@ from cyclopts.validators import Number
 
 from support_exudyn.scene.contract import Progress, SimulationError, error_text
 from support_exudyn.simulation.at_start import EXIT_CODE, INTERRUPTED, be_readable
-from user_forces.values.texts import InputError, cleaned
+from user_forces.values.names import InputError, cleaned
 
 LONGEST_LINE = 400  # characters of what is wrong with a command line
 WRONG_USAGE = 2  # exit code

@@ -10,7 +10,7 @@ from typing import Annotated
 
 from pydantic import Field, model_validator
 
-from user_forces.values.names import suggestion
+from user_forces.values.names import nearest
 from user_forces.values.units import (
     Kilograms,
     KilogramSquareMetres,
@@ -264,7 +264,7 @@ def check_bodies(used: Iterable[tuple[str, str]], bodies: Collection[str]) -> No
     """Raise ValueError unless bodies that are used, each with where, are known or the ground."""
     for where, body in used:
         if body != GROUND and body not in bodies:
-            raise ValueError(f"{where} = {body!r}: no such body; {suggestion(body, (GROUND, *bodies))}")
+            raise ValueError(f"{where} = {body!r}: no such body; {nearest(body, (GROUND, *bodies))}")
 
 
 @value
@@ -318,7 +318,7 @@ class Linkage(Value):
         check_bodies(used, self.bodies)
         for where, body in moving:
             if body not in self.bodies:
-                raise ValueError(f"{where} = {body!r}: no such moving body; {suggestion(body, self.bodies)}")
+                raise ValueError(f"{where} = {body!r}: no such moving body; {nearest(body, self.bodies)}")
         for name, slide in self.slides.items():
             if slide.body == slide.against:
                 raise ValueError(f"slides.{name} = {slide.body!r} twice: allowed: two different bodies")

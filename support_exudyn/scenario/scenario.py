@@ -39,7 +39,7 @@ class Scenario(ScenarioData):
         )
 
     @classmethod
-    def _of_earlier(cls, given: Mapping[str, Any]) -> Mapping[str, Any]:
+    def of_earlier(cls, given: Mapping[str, Any]) -> Mapping[str, Any]:
         """Data and files of earlier versions call the Exudyn formulation "redundant"."""
         named = given.get("formulation")
         known = isinstance(named, str) and named in EARLIER_NAMES

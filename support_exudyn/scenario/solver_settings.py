@@ -69,7 +69,8 @@ class SolverSettings(Value):
     result_checks: Annotated[bool, Field(strict=True)] = True
 
     @classmethod
-    def _of_earlier(cls, given: Mapping[str, Any]) -> Mapping[str, Any]:
+    def of_earlier(cls, given: Mapping[str, Any]) -> Mapping[str, Any]:
+        """The fields without those of earlier versions."""
         for key, (only, reason) in REMOVED.items():
             if given.get(key, only) != only:
                 warnings.warn(f"solver.{key} = {given[key]!r} has no effect any more: {reason}", stacklevel=2)

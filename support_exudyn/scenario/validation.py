@@ -18,7 +18,7 @@ from support_exudyn.model.loads.load import ActingLoad, AnyLoad
 from support_exudyn.model.pins import Pin
 from support_exudyn.model.spatial_linkage import SpatialLinkage
 from support_exudyn.scenario.scenario_data import ScenarioData
-from user_forces.values.names import suggestion, unknown
+from user_forces.values.names import nearest, unknown
 from user_forces.values.value import InputError, check_names
 
 TURNED = 1e-9  # least share by which a condition holds how a body turns
@@ -216,9 +216,9 @@ def _check_load(scenario: ScenarioData, where: str, name: str, load: AnyLoad, ta
             f"{where}: the machine has something of this name; allowed: all but {', '.join(sorted(taken))}"
         )
     if load.body not in linkage.bodies:
-        raise ValueError(f"{where}.body = {load.body!r}: no such body; {suggestion(load.body, linkage.bodies)}")
+        raise ValueError(f"{where}.body = {load.body!r}: no such body; {nearest(load.body, linkage.bodies)}")
     if against not in (GROUND, name, *linkage.bodies):  # a body that it brings along has its own name
         bodies = (GROUND, *linkage.bodies)
-        raise ValueError(f"{where}.other = {against!r}: no such body; {suggestion(against, bodies)}")
+        raise ValueError(f"{where}.other = {against!r}: no such body; {nearest(against, bodies)}")
     if not isinstance(load, (ActingLoad, FallingBlock)):
         raise ValueError(f"{where} = {type(load).__name__}: allowed: one of the kinds in model.loads")

@@ -15,8 +15,8 @@ import numpy as np
 
 from support_exudyn.files.machines.read import read_machine
 from support_exudyn.files.scenarios.scenario_file import scenario_file_of
-from support_exudyn.files.toml.faults import nearest
 from support_exudyn.sweeps.plan import DIGITS, Range
+from user_forces.values.names import nearest
 from user_forces.values.sourced import SourcedNumber
 from user_forces.values.value import InputError, short
 

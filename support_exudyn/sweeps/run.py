@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from itertools import chain
 from pathlib import Path
 
-from support_exudyn.files.toml.faults import nearest
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.result import Result
 from support_exudyn.simulation.simulate import simulate
@@ -27,6 +26,7 @@ from support_exudyn.sweeps.work import (
     refused,
     suits_threads,
 )
+from user_forces.values.names import nearest
 from user_forces.values.value import InputError, short
 
 SELDOM = 10.0  # the table is written every so many seconds while runs come in,

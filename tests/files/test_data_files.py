@@ -89,7 +89,7 @@ def test_a_class_may_have_fields_of_its_own_kind() -> None:
     tree = Branch(size=1.0, first=Branch(size=0.2), rest=(Branch(size=0.3),))
     assert read(Branch, toml_text(table_of(tree))) == tree
     assert refusal(Branch, "size_m = 1\nfirst.size_mm = -1") == "a.toml: first.size_mm = -1: allowed: > 0"
-    said = "a.toml: rest[0].sze_mm: unknown key; did you mean size_mm"
+    said = "a.toml: rest[0].sze_mm: unknown key; did you mean 'size_mm'"
     assert refusal(Branch, "size_m = 1\nrest = [{sze_mm = 1}]").startswith(said)
 
 

@@ -41,7 +41,7 @@ def test_one_of_several_has_to_be_chosen(tmp_path: Path) -> None:
     assert one_drive(path, "rear_column", "smooth") == read_drives(path)["rear_column"]
     with pytest.raises(InputError, match=r"a.csv: has 2 columns; say which by column; allowed: front_column, "):
         one_drive(path, None, "smooth")
-    with pytest.raises(InputError, match=r"column = 'rear_colum': no such column; did you mean rear_column"):
+    with pytest.raises(InputError, match=r"column = 'rear_colum': no such column; did you mean 'rear_column'"):
         one_drive(path, "rear_colum", "smooth")
 
 

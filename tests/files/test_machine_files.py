@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import math
-import sys
-from importlib import resources
 from pathlib import Path
 
 import pytest
@@ -13,18 +11,7 @@ from support_exudyn import HydraulicSupport, SliderCrank, load_support, referenc
 from support_exudyn.files.machines import load_machine, read_machine
 from support_exudyn.machines.two_leg_shield import TwoLegShield
 from support_exudyn.model.linkage import lumped
-from tests.machine_files import OURS, written
-from user_forces import InputError
-
-if sys.version_info >= (3, 11):
-    pass
-else:
-    pass
-
-
-def text_of(name: str) -> str:
-    return (resources.files("support_exudyn.files.machines") / f"{name}.toml").read_text(encoding="utf-8")
-
+from tests.machine_files import written
 
 # --- those that come with the package ---
 
@@ -106,13 +93,3 @@ def test_masses_alone_are_bars_between_pivots(tmp_path: Path) -> None:
     assert lumped(canopy).mass == 5900.0
     assert any("canopy" in said and "hinge to tip" in said for said in data.assumed)
     assert data.stroke == 0.6
-
-
-def test_other_units_are_those_of_scenario_files(tmp_path: Path) -> None:
-    same = load_machine(written(tmp_path)).machine
-    assert load_machine(written(tmp_path, "height_mm = 2050", "height_m = 2.05")).machine == same
-    text = OURS.replace(
-        "start_hinge_height_mm = 2050", "start_hinge_height_mm = 2050\nstart_hinge_height_m = 2"
-    )
-    with pytest.raises(InputError, match=r"start_hinge_height_m: is given twice, start_hinge_height_mm says"):
-        load_machine(written(tmp_path, text=text))

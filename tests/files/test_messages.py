@@ -62,7 +62,7 @@ machine = "zf1800"; duration_s = 1 ~> machine = 'zf1800': there is none .. did y
 duration_s = 1; [machine]; type = "Sup" -> machine.type = 'Sup'
 kind = 'two_leg_shield'; stroke_mm = 3 -> is the file of a machine; allowed: a scenario
 nme = "a"; machine = "reference"; duration_s = 5
-    -> nme: unknown key; did you mean name? allowed: name, description,
+    -> nme: unknown key; did you mean 'name'? allowed: name, description,
 name = 3; machine = "reference"; duration_s = 5 -> name = 3: allowed: a text
 errors = 1; machine = "reference"; duration_s = 5 -> errors = 1: allowed: true, false
 type = "Held"; machine = "reference"; duration_s = 5 -> type = 'Held': allowed: "Scenario", or to leave it out
@@ -91,7 +91,7 @@ pins.rear_bse.clearance_mm = 1 ~> pins.rear_bse: unknown pin 'rear_bse'; did you
 pins.rear_bse.ideal = true ~> pins.rear_bse: unknown pin 'rear_bse'; did you mean 'rear_base'
 [pins.rear_base]; clearance_mm = -1; bore_radius_mm = 65.5 -> pins.rear_base.clearance_mm = -1: allowed: >= 0
 [pins.rear_base]; clearance_mm = 70; bore_radius_mm = 65.5
-    ~> pins.rear_base: clearance_mm = 70 .. bore_radius_mm = 65.5; allowed: > 0
+    ~> pins.rear_base: JournalBearing: clearance = 0.07 m: leaves no journal .. allowed: > 0
 drive.mode = 3 -> drive.mode = 3: allowed: 1, 2
 [drive]; mode = 1; end_s = 1 ~> drive: end = 1.0 s: allowed: > start = 3.0 s
 drive.stroke_mm = 3 -> drive: says no mode, table or type; allowed: mode = 1 or 2
@@ -111,9 +111,9 @@ actuators.front_column.type = 'OilColumn' -> actuators.front_column.bore_area_mm
 accuracy = {value = "draft"} -> accuracy.value = 'draft': allowed: a number
 == PIN
 clearance_m = 1e-3 -> pins.rear_base.clearance_m: is given twice
-law = 'Hertzz' -> pins.rear_base.law = 'Hertzz': did you mean Hertz? allowed:
+law = 'Hertzz' -> pins.rear_base.law = 'Hertzz': did you mean 'Hertz'? allowed:
 law = 'Hertz'; restitution = 0.9 ~> pins.rear_base: restitution
-law = 'Johnson' -> law takes laws of stiffness and restitution only, and Johnson has .. ClearancePin
+law = 'Johnson' -> law takes laws of stiffness and restitution only .. ClearancePin
 stiffness = 1e10 -> pins.rear_base.stiffness: a number needs its unit in the key; allowed: stiff
 stiffness = {value = 1e10} -> pins.rear_base.stiffness: a number needs its unit in the key
 stiffness_N_per_m_to_n = 1e10; bore_material = 'steel'
@@ -126,7 +126,7 @@ restitution = 1.5 -> pins.rear_base.restitution = 1.5: allowed: > 0 and <= 1
 law = "no_laws.py:A" ~> law = 'no_laws.py:A': allowed: a file that is there
 friction_law = "laws.py:BadPlain" ~> made with @value
 law = "laws.py:BadFriction" ~> law = 'BadFriction': .. allowed: .. BadNormal
-law = "laws.py:BadRig" ~> BadRig has fields of its own: .. [pins.NAME.contact], .. normal = {
+law = "laws.py:BadRig" ~> law = 'BadRig': .. [pins.NAME.contact], .. normal = {
 == GUIDE
 clearance_mm = 0.1 ~> guides.guide: block_mm: missing, and the machine's file says none
 clearance_mm = 1; block_mm = [40, 20]; corner_radius_mm = 1; stiffness_N_per_m_to_n = 1e9
@@ -147,10 +147,11 @@ drive = {type = "Steady", rate_m_per_s = 1} ~> allowed: rate_deg_per_s, rate_rad
 drive = {type = "TableDrive", times_s = [0, 1], extensions_mm = [0, 1]} ~> extensions_deg
 == OIL
 oil_length_mm = {value = 900, from = 300, to = 800} ~> oil_length_mm.value = 900: allowed: from 300
-oil_length_mm = {valeu = 1} -> oil_length_mm.valeu: unknown key; did you mean value?
+damping_time_s = 1e-3 -> damping_time_s: there is no such key any more; allowed: a line
+oil_length_mm = {valeu = 1} -> oil_length_mm.valeu: unknown key; did you mean 'value'?
 == SUPPORT
 start_hinge_height_mm = 1800 => start_hinge_height_mm = 5000 ~> start_hinge_height = 5.0 m:
-mass_kg = 400 => mas_kg = 400 -> parts.front_link[0].mas_kg: unknown key; did you mean mass_kg
+mass_kg = 400 => mas_kg = 400 -> parts.front_link[0].mas_kg: unknown key; did you mean 'mass_kg'
 centre_mm = [899, 2252] => ~> parts.canopy[1]: centre_mm or between: missing
 "front_base", "front_sh => "front_base", "now ~> parts.front_link[0].between =
 [595, 619] => [595] -> pivots_mm.front_base = [595]: allowed: a list of 2, each a number
@@ -160,7 +161,7 @@ rod_mass_kg = 200 => -> columns.front_column.rod_mass_kg: missing
 [columns.front_column] => [[columns]] -> columns =
 == OURS
 [0, 380] => [0] -> pivots_mm.rear_base = [0]: allowed: a list of 2
-rear_shield = => rear_sheild = -> pivots_mm.rear_sheild: unknown key; did you mean rear_shield
+rear_shield = => rear_sheild = -> pivots_mm.rear_sheild: unknown key; did you mean 'rear_shield'
 tip = [3900, 2650] => -> pivots_mm.tip: missing; it has no default: foremost point
 canopy = 5200 => canopy = -5200 -> masses_kg.canopy = -5200: allowed: > 0
 kind = "four_column_support" => -> kind: missing; it says what the machine is
@@ -170,7 +171,6 @@ stroke_mm = 600 => stroke_mm = 600; stroke_m = 1 -> stroke_m: is given twice, st
 = 900 => = {value = 900, from = 1200, to = 800} ~> rear_link.from = 1200: allowed: <= to = 800
 = 900 => = {value = 900, source = " "} -> rear_link.source = ' ': allowed: a text that is not empty
 = 900 => = {value = 900, from = 800} -> rear_link.to: missing; a range has from and to
-= 900 => = {value = 900, from = 0, to = 1000} -> masses_kg.rear_link.from = 0: allowed: > 0
 = 900 => = {from = 800, to = 1000, source = "a"} -> masses_kg.rear_link.value: missing
 == CRANK_ROCKER
 bar = ["O", "A"] => bar = ["O", "Q"] ~> bodies.crank.bar = 'Q': drawing_mm has no such point
@@ -194,7 +194,7 @@ angle_deg = { crank = 30 } => angle_deg = { crank = 30 }; angular_velocity_rad_p
 == GEARED
 { wheel = 10 } => { wheel = 10, pinion = 10 } ~> wheel .. pinion
 == LOADED
-"coupler"]; at = ["O => "cupler"]; at = ["O ~> no such body; did you mean coupler?
+"coupler"]; at = ["O => "cupler"]; at = ["O ~> no such body; did you mean 'coupler'?
 at = ["O", "M"] => at = ["Z", "M"] ~> springs.between.at[0] = 'Z'
 "rocker"]; stiff => "rock"]; stiff ~> unknown body 'rock'; did you mean 'rocker'?
 body = "rocker"; torque => body = "rock"; torque ~> torques.pull.body.rock: unknown body
@@ -214,7 +214,7 @@ normal = {type = "Hertz", stiffness_N_per_m_to_n = 1e10}; bearing = {bore_radius
 normal = {type = "LankaraniNikravesh", restitution = 1.5} ~> normal.restitution = 1.5: allowed: >= 0 and <= 1
 == Drive
 stroke_mm = 1 ~> type: missing; allowed: .. CubicStep
-type = "CubicStp" ~> type = 'CubicStp': did you mean CubicStep? allowed:
+type = "CubicStp" ~> type = 'CubicStp': did you mean 'CubicStep'? allowed:
 == Part
 mass_kg = 1; centre_mm = [1, inf] ~> centre_mm[1] = Infinity: allowed: a number
 mass_kg = 1; centre_mm = 3 ~> centre_mm = 3: allowed: a list of 2, each a number

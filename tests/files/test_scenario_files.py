@@ -16,7 +16,6 @@ from support_exudyn import (
     IdealPin,
     OilColumn,
     Scenario,
-    TableDrive,
     UniformSpeed,
     cylinders_and_rods,
 )
@@ -91,11 +90,6 @@ def test_stiffness_of_materials_inside() -> None:
     assert found == Hertz(stiffness=internal_contact_stiffness(bearing(1.5), STEEL, STEEL))
 
 
-def test_a_friction_law_as_a_table() -> None:
-    found = scenario(TOP + WITH_CLEARANCE + 'friction = {type = "CubicCoulomb", sliding_coefficient = 0.2}')
-    assert found.clearance_pins["rear_base"].contact.friction == CubicCoulomb(sliding_coefficient=0.2)
-
-
 @pytest.mark.parametrize(
     ("said", "rest"),
     [
@@ -144,12 +138,6 @@ def test_drives_apart() -> None:
     )
     assert found.drives == {"front_column": UniformSpeed()}
     assert found.actuators == {"front_column": OilColumn(bore_area=0.1, oil_length=0.5, bulk_modulus=1.5e9)}
-
-
-def test_a_drive_from_a_table(tmp_path: Path) -> None:
-    (tmp_path / "a.csv").write_text("time_s,extension_mm\n0,0\n1,100\n")
-    found = scenario(TOP + 'drive = {table = "a.csv", between = "linear"}', tmp_path)
-    assert found.drive == TableDrive(times=(0.0, 1.0), extensions=(0.0, 0.1), between="linear")
 
 
 def test_one_table_drives_several_actuators() -> None:

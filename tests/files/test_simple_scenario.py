@@ -16,10 +16,7 @@ from support_exudyn import (
 )
 from user_forces import (
     InputError,
-    JournalBearing,
-    external_contact_stiffness,
 )
-from user_forces.materials import STEEL, STEEL_35CRMO
 
 FILE = """
 machine = "zf18000"
@@ -55,16 +52,6 @@ def test_what_does_not_fit_a_scenario_in_a_line_is_told_by_its_key() -> None:
         simple_scenario("zf1800", duration_s=5)
     with pytest.raises(InputError, match=r"drive = ClearancePin.*allowed: a table of type"):
         simple_scenario("zf18000", duration_s=5, drive=ClearancePin.simple(clearance=1e-3, bore_radius=0.06))
-
-
-def test_a_simple_pin_has_usual_values() -> None:
-    pin = ClearancePin.simple(clearance=0.5e-3, bore_radius=0.06)
-    bearing = JournalBearing(bore_radius=0.06, clearance=0.5e-3)
-    stiffness = external_contact_stiffness(bearing, STEEL, STEEL_35CRMO)
-    assert pin.contact.bearing == bearing
-    assert pin.contact.normal.to_data()["restitution"] == 0.9
-    assert pin.contact.normal.elastic_force(1e-5) == pytest.approx(stiffness * 1e-5**1.5)
-    assert pin.contact.friction(0.1, 1e3) == 0.0
 
 
 def test_machines_are_taken_by_name_and_by_path(tmp_path: Path) -> None:

@@ -50,9 +50,6 @@ def written(folder: Path, old: str = "", new: str = "") -> Path:
     return path
 
 
-# --- the reference support ---
-
-
 @pytest.mark.parametrize("name", PIVOTS)
 def test_reference_support_has_the_published_pivots(name: str) -> None:
     # one rounding from mm to m
@@ -66,9 +63,6 @@ def test_reference_support_has_the_published_parts(body: str) -> None:
     assert got.mass == pytest.approx(expected.mass, rel=1e-15)
     assert got.inertia == pytest.approx(expected.inertia, rel=1e-13)
     assert got.centre == pytest.approx(expected.centre, abs=1e-15)
-
-
-# --- reading ---
 
 
 def test_a_file_is_read_into_metres_and_kilograms(tmp_path: Path) -> None:
@@ -91,9 +85,6 @@ def test_a_part_with_a_length_is_a_bar_about_its_centre(tmp_path: Path) -> None:
     assert part.centre == (1.369, 2.317)
     # rounding
     assert part.inertia == pytest.approx(3000.0 * 3.3**2 / 12.0, rel=1e-14)
-
-
-# --- refusals: each names the file and the key ---
 
 
 # --- columns with mass, and the tail beam ---

@@ -106,9 +106,3 @@ def test_reciprocating_by_hand() -> None:
     # before the start nothing moved: the acceleration jumps there
     assert chosen.breaks == (0.0,)
     assert Reciprocating(period=1.0).stroke == 0.5
-
-
-@pytest.mark.parametrize("period", [0.0, -1.0, float("nan")])
-def test_a_period_that_makes_no_sense_is_refused(period: float) -> None:
-    with pytest.raises(InputError, match=rf"Reciprocating\.period = {period}: "):
-        Reciprocating(period=period)

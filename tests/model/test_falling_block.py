@@ -11,7 +11,6 @@ from hypothesis import strategies as st
 from support_exudyn import FallingBlock, Scenario
 from support_exudyn.postprocessing.look.plain import look
 from tests.roof_cases import TOP, Ram
-from user_forces import InputError
 
 ROCK = FallingBlock(body="ram", point=TOP, mass=400.0, height=0.2, stiffness=2e8, restitution=0.4)
 
@@ -43,19 +42,3 @@ def test_a_block_and_its_guide_join_the_machine() -> None:
         scene.channel_definitions
     )
     assert look(scene).shapes  # a machine that says no more of it
-
-
-@pytest.mark.parametrize(
-    ("field", "number"),
-    [
-        ("mass", 0.0),
-        ("height", -0.1),
-        ("stiffness", 0.0),
-        ("restitution", 1.1),
-        ("exponent", 0.5),
-        ("slope", 1.5),
-    ],
-)
-def test_what_no_block_can_have_is_refused(field: str, number: float) -> None:
-    with pytest.raises(InputError, match=rf"FallingBlock\.{field} = {number}"):
-        replace(ROCK, **{field: number})

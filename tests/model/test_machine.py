@@ -60,9 +60,3 @@ ENDS = {"foot_point": ORIGIN, "head_point": (1.0, 0.0)}
 def test_elements_of_bodies_that_cannot_be_are_refused(elements: dict[str, Any], said: str) -> None:
     with pytest.raises(InputError, match=said):
         Linkage(**({"bodies": {"a": BODY}} | elements))
-
-
-@pytest.mark.parametrize(("kind", "mass"), [(Body, -1.0), (Body, 0.0), (Part, -1.0)])
-def test_masses_that_cannot_be_are_refused(kind: type[Body | Part], mass: float) -> None:
-    with pytest.raises(InputError, match=rf"{kind.__name__}\.mass = {mass}: .*allowed: > 0"):
-        kind(mass=mass, inertia=1.0, centre=ORIGIN)

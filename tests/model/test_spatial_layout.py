@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -21,7 +20,6 @@ from support_exudyn import (
     Slide,
     TracePoint,
     cylinders_and_rods,
-    load_support,
     ravn_slider_crank,
     reference_support,
 )
@@ -177,33 +175,6 @@ def test_impossible_bodies_and_bearings_are_refused() -> None:
         Bearing(first="a", second="a", **place)
     with pytest.raises(InputError, match="no such body"):
         SpatialLinkage(bodies={}, bearings={"p": Bearing(first="ground", second="a", **place)})
-
-
-# --- machine data files ---
-
-
-def reference_file() -> str:
-    from importlib import resources
-
-    return (resources.files("support_exudyn.files.machines") / "reference.toml").read_text(encoding="utf-8")
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "said"),
-    [
-        ("tip = 1140", 'tip = "wide"', "width_mm.points.tip = 'wide': allowed: a number"),
-        ("tip = 1140", "nose = 1140", "width_mm.points.nose: unknown key; allowed: tip"),
-        ("canopy = 1140", "roof = 1140", "width_mm.bodies.roof: unknown key"),
-    ],
-)
-def test_what_does_not_fit_in_a_file_is_said(tmp_path: Path, old: str, new: str, said: str) -> None:
-    text = reference_file()
-    assert old in text
-    path = tmp_path / "machine.toml"
-    path.write_text(text.replace(old, new), encoding="utf-8")
-    with pytest.raises(InputError, match=said.replace(".", r"\.")) as caught:
-        load_support(path)
-    assert str(path) in str(caught.value)
 
 
 # --- scenarios in space ---

@@ -15,7 +15,6 @@ from support_exudyn import (
     PumpStation,
     Scenario,
     YieldValve,
-    bore_area,
     reference_support,
     simulate,
 )
@@ -138,12 +137,3 @@ def test_cylinders_follow_no_drive_and_other_actuators_do() -> None:
     mixed = on_support(actuators={"front_column": CYLINDER}, drive=CubicStep())
     assert mixed.driven == ("rear_column",)
     assert mixed.compliant_actuators == ("front_column",)
-
-
-def test_wrong_numbers_of_columns_are_refused() -> None:
-    with pytest.raises(InputError, match="bulk_modulus"):
-        OilColumn(bore_area=1.0, oil_length=1.0, bulk_modulus=0.0)
-    with pytest.raises(InputError, match="diameter"):
-        bore_area(0.0)
-    with pytest.raises(InputError, match=r"OilColumn\.damping_time = 0\.001.*allowed: a line"):
-        OilColumn(bore_area=0.1, oil_length=0.5, bulk_modulus=1.5e9, damping_time=1e-3)

@@ -25,7 +25,7 @@ from support_exudyn import (
 )
 from support_exudyn.model.linkage import Body
 from tests.cases.machine_cases import contact, support
-from user_forces import InputError, JournalBearing, value
+from user_forces import InputError, value
 
 SUPPORT = support()
 
@@ -45,14 +45,11 @@ def scenario(**changes: object) -> Scenario:
         ({"drive": UniformSpeed(stroke=-2.0)}, r"cannot follow beyond .*extended by -1\.38"),
         ({"drive": Steady(rate=0.1), "duration": 50.0}, r"cannot follow beyond 11\.13 s"),
         ({"step": 0.0}, r"Scenario\.step = 0\.0: .*allowed: > 0 and <= 0\.1"),
-        ({"step": -0.001}, r"Scenario\.step = -0\.001: .*allowed: > 0"),
-        ({"speed": 3}, r"Scenario\.speed = 3: unknown field; the fields are machine, pins, guides"),
+        ({"speed": 3}, r"Scenario\.speed = 3: unknown field; allowed: machine, pins, guides"),
         ({"pins": {"rear": IdealPin()}}, r"pins\.rear: unknown pin 'rear'; did you mean 'rear_base'"),
         ({"pins": {"rear_base": contact()}}, r"Scenario\.pins\.rear_base = JournalContact\(.*Pin"),
         ({"record_period": 6.0}, r"record_period = 6\.0 s: allowed: at most the duration, 5\.0 s"),
-        ({"record_period": 0.0}, r"Scenario\.record_period = 0\.0: .*> 0"),
         ({"duration": 0.0}, r"Scenario\.duration = 0\.0: .*allowed: > 0"),
-        ({"duration": math.inf}, r"Scenario\.duration = inf: .*allowed: > 0"),
         ({"machine": "support"}, r"Scenario\.machine = 'support': .*Machine"),
         ({"start": "resting"}, r"Scenario\.start = 'resting': .*'concentric' or 'settled'"),
         (
@@ -73,30 +70,6 @@ def scenario(**changes: object) -> Scenario:
 def test_scenarios_that_cannot_be_are_refused(changes: dict[str, object], said: str) -> None:
     with pytest.raises(InputError, match=said):
         scenario(**changes)
-
-
-def test_bores_and_their_sides_are_checked() -> None:
-    with pytest.raises(InputError, match=r"clearance = 1\.5 m: .*allowed: > 0 and < 0\.0655"):
-        JournalBearing(bore_radius=0.0655, clearance=1.5)
-    with pytest.raises(InputError, match=r"ClearancePin\.bore = 'third': .*'first' or 'second'"):
-        ClearancePin(contact=contact(), bore="third")
-
-
-@pytest.mark.parametrize(
-    ("field", "wrong", "allowed"),
-    [
-        ("spectral_radius", 1.1, ">= 0 and <= 1"),
-        ("newton_tolerance", 0.1, "> 0 and <= 0.001"),
-        ("impact_steps", 15, ">= 16 and <= 10000"),
-        ("growth", 65.0, ">= 1 and <= 64"),
-        ("tolerance", 1e-14, ">= 1e-13 and <= 0.01"),
-        ("newton", "none", "'modified' or 'full'"),
-        ("most_steps", 0, ">= 1"),
-    ],
-)
-def test_settings_of_the_solver_that_cannot_be_are_refused(field: str, wrong: object, allowed: str) -> None:
-    with pytest.raises(InputError, match=rf"SolverSettings\.{field} = {wrong!r}: .*{allowed}"):
-        SolverSettings(**{field: wrong})
 
 
 # --- accuracy ---
@@ -142,10 +115,7 @@ def test_a_refined_run_has_half_the_step_and_twice_the_steps_in_an_impact() -> N
     finer = scenario(step=1e-3, solver=SolverSettings(impact_steps=100)).refined()
     assert finer.step == 5e-4
     assert finer.solver.impact_steps == 200
-
-
-def test_a_step_that_records_cut_short_is_refined_from_what_it_really_is() -> None:
-    # steps end at records, so one of 5 ms is one of 1 ms here: half of that, else nothing would be refined
+    # steps end at records, so one of 5 ms is one of 1 ms here
     assert scenario(step=5e-3, record_period=1e-3).refined().step == 5e-4
 
 
@@ -213,13 +183,3 @@ def test_only_driven_actuators_are_actuators_of_the_scenario(name: str) -> None:
                 parts={"tail_beam": OwnBody()},
                 duration=1.0,
             )
-
-
-def test_a_jack_follows_no_drive() -> None:
-    with pytest.raises(InputError, match=r"drives\.tail_jack: .*allowed: front_column, rear_column"):
-        Scenario(
-            machine=reference_support(),
-            parts={"tail_beam": OwnBody()},
-            drives={"tail_jack": Held()},
-            duration=1.0,
-        )

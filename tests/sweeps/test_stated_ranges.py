@@ -61,7 +61,7 @@ def test_each_sample_is_the_machine_with_these_numbers_in_it(tmp_path: Path) -> 
     [
         ('"machine.*" = "stated range"', "", r"allowed with method = 'latin_hypercube'"),
         ('"machine.masses_kg.front_link" = "stated range"', None, r"no range is stated for such a number"),
-        ('"machine.masses_kg.canpy" = "stated range"', None, r"did you mean machine.masses_kg.canopy"),
+        ('"machine.masses_kg.canpy" = "stated range"', None, r"did you mean 'machine.masses_kg.canopy'"),
         ('duration_s = "stated range"', None, r"as \{value = 1960, from = 1500, to = 2200\}"),
         ('machine = ["a.toml"]\n"machine.*" = "stated range"', None, r"vary.'machine' and vary"),
     ],

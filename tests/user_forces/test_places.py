@@ -9,7 +9,6 @@ import pytest
 
 import user_forces
 from tests.processes import environment
-from user_forces.values.value import Value, kinds_of
 
 ONE = """
 import sys
@@ -75,9 +74,3 @@ def test_a_name_of_a_package_that_there_is_not_is_told() -> None:
     ):
         user_forces.Herz  # type: ignore[attr-defined] # noqa: B018
     assert "Hertz" in dir(user_forces)
-
-
-def test_what_is_no_class_of_values_is_none_by_name() -> None:
-    with pytest.raises(KeyError, match="no such class of values"):
-        Value.of_name("laws")
-    assert "laws" not in kinds_of(Value)

@@ -40,13 +40,14 @@ class Hysteresis(NormalLaw, ABC):
         rest_velocity: smallest w [m/s], > 0.
     """
 
-    _removed: ClassVar[Mapping[str, str]] = {"damping_speed": "give rest_velocity"}
+    removed: ClassVar[Mapping[str, str]] = {"damping_speed": "give rest_velocity"}
 
     restitution: Fraction
     rest_velocity: MetresPerSecond[Positive] = REST_VELOCITY
 
     @classmethod
-    def _of_earlier(cls, given: Mapping[str, Any]) -> Mapping[str, Any]:
+    def of_earlier(cls, given: Mapping[str, Any]) -> Mapping[str, Any]:
+        """The fields without those of earlier versions."""
         return without_damping_speed(given)
 
     @abstractmethod

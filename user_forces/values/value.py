@@ -19,7 +19,6 @@ import numbers
 from abc import ABC
 from collections.abc import Mapping, Sequence
 from decimal import Decimal
-from difflib import get_close_matches
 from typing import Annotated, Any, ClassVar, TypeVar
 
 import numpy as np
@@ -36,15 +35,13 @@ from pydantic_core import ArgsKwargs, core_schema
 from typing_extensions import Self, dataclass_transform
 
 from user_forces.values import places
-from user_forces.values.names import Named
-from user_forces.values.texts import InputError as InputError
-from user_forces.values.texts import check_names as check_names
-from user_forces.values.texts import cleaned as cleaned
-from user_forces.values.texts import short as short
+from user_forces.values.names import InputError as InputError
+from user_forces.values.names import Named, meant, nearest
+from user_forces.values.names import check_names as check_names
+from user_forces.values.names import cleaned as cleaned
+from user_forces.values.names import short as short
 
 LARGEST = 1e30  # of any number: products of several neither overflow nor vanish
-NEAR = 4  # names that are told of many
-NEAREST = 80  # letters of a name that are compared
 GROUP = "value_class"  # in the schemas of fields: the class of their values
 DEEPEST = 32  # of plain data, in containers within containers; a scenario has 7
 
@@ -111,7 +108,7 @@ class Value:
     Classes that our packages offer are imported into it when they are asked for.
     """
 
-    _removed: ClassVar[Mapping[str, str]] = {}  # fields that there once were, with what to do instead
+    removed: ClassVar[Mapping[str, str]] = {}  # fields of earlier versions, with what to do instead
     _register: ClassVar[dict[str, type[Value]]] = {}
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
@@ -167,8 +164,8 @@ class Value:
         return {"type": type(self).__name__} | {f.name: _plain(getattr(self, f.name)) for f in fields}
 
     @classmethod
-    def _of_earlier(cls, given: Mapping[str, Any]) -> Mapping[str, Any]:
-        """The fields, or the keys of a file, that an earlier version wrote, as they are now."""
+    def of_earlier(cls, given: Mapping[str, Any]) -> Mapping[str, Any]:
+        """The present fields, or keys of a file, for those that an earlier version wrote."""
         return given
 
     @staticmethod
@@ -184,16 +181,6 @@ class Value:
         Raises InputError if the type is not known or a field does not fit.
         """
         return _rebuilt(data, _class_of(data))
-
-
-def removed_fields(cls: type[Value]) -> Mapping[str, str]:
-    """Fields that a class once had, with what to do instead."""
-    return cls._removed
-
-
-def of_earlier_version(cls: type[Value], given: Mapping[str, Any]) -> Mapping[str, Any]:
-    """The fields, or the keys of a file, that an earlier version wrote of a class, as they are now."""
-    return cls._of_earlier(given)
 
 
 def known_class(name: str) -> type[Value] | None:
@@ -217,7 +204,9 @@ def kinds_of(cls: type[Value]) -> dict[str, type[Value]]:
 def is_kind_of(kind: type[Value], cls: type[Value]) -> bool:
     """Whether a class is under another, and users can make values of it: its name does not begin with _."""
     is_public = not kind.__name__.startswith("_")
-    return issubclass(kind, cls) and _has_fields(kind) and not only_groups(kind) and is_public
+    return (
+        issubclass(kind, cls) and hasattr(kind, "__dataclass_fields__") and not only_groups(kind) and is_public
+    )
 
 
 def only_groups(cls: type) -> bool:
@@ -225,16 +214,12 @@ def only_groups(cls: type) -> bool:
     return ABC in cls.__bases__ or inspect.isabstract(cls)
 
 
-def _has_fields(cls: Any) -> bool:
-    return dataclasses.is_dataclass(cls)
-
-
 def _is_made(cls: type[Value]) -> bool:
     """Whether `value` has made a class; or one that it derives from, and it has no fields of its own."""
     if "__pydantic_fields__" in vars(cls):
         return True
     fields = [one for one in inspect.get_annotations(cls).values() if "ClassVar" not in str(one)]
-    return _has_fields(cls) and not fields
+    return hasattr(cls, "__dataclass_fields__") and not fields
 
 
 def _check_whole(cls: Any) -> None:
@@ -274,11 +259,9 @@ def _class_of(data: Any) -> type[Value]:
     found = known_class(kind) if isinstance(kind, str) else None
     if found is not None and is_kind_of(found, Value):
         return found
-    known = kinds_of(Value)
-    near = ", ".join(get_close_matches(kind if isinstance(kind, str) else "", known, NEAR, 0.0))
     raise InputError(
-        f"type = {short(kind)}: not a known type; allowed: those of {len(known)} classes, such as {near}; "
-        "one's own have to be imported first, on a command line by --import FILE"
+        f"type = {short(kind)}: not a known type; one's own have to be imported first, on a command line by "
+        f"--import FILE; {meant(kind, sorted(kinds_of(Value)))}"
     )
 
 
@@ -291,11 +274,12 @@ def _rebuilt(item: Any, cls: type[Value] | None = None, depth: int = 0) -> Any:
     if not isinstance(item, Mapping):
         return item
     cls = _class_of(item) if cls is None and "type" in item else cls
-    given = item if cls is None else of_earlier_version(cls, item)
-    inside = {
-        name: _rebuilt(one, None, depth + 1) for name, one in given.items() if cls is None or name != "type"
-    }
-    return inside if cls is None else cls(**inside)
+    given = item if cls is None else cls.of_earlier(item)
+    inside = {name: _rebuilt(each, None, depth + 1) for name, each in given.items()}
+    if cls is None:
+        return inside
+    inside.pop("type", None)
+    return cls(**inside)
 
 
 T = TypeVar("T")
@@ -316,22 +300,17 @@ def value(cls: type[T]) -> type[T]:
         made: Any = pydantic_dataclass(frozen=True, kw_only=True, config=config)(cls)
     finally:
         _being_made.remove(cls)
-    checked_init = made.__init__
 
     def __init__(self: Any, /, *args: Any, **kwargs: Any) -> None:
-        if ITSELF in kwargs:
-            raise InputError(
-                f"{made.__name__}.{ITSELF} = {short(kwargs[ITSELF])}: unknown field; allowed: others"
-            )
         try:
-            checked_init(self, *args, **kwargs)
+            self.__pydantic_validator__.validate_python(ArgsKwargs(args, kwargs), self_instance=self)
         except ValidationError as error:
             raise InputError(
                 "\n".join(_sentence(made, e) for e in _first(error.errors(include_url=False)))
             ) from None
         _name_entries(self)
 
-    __init__.__doc__ = checked_init.__doc__
+    __init__.__doc__ = made.__init__.__doc__
     made.__init__ = __init__
     return made  # type: ignore[no-any-return]
 
@@ -359,7 +338,6 @@ def _name_entries(made: Any) -> None:
         object.__setattr__(made, name, Named(item, f"name in {cls}.{name}"))
 
 
-ITSELF = "__dataclass_self__"  # how pydantic calls the value that is made
 MARKS = {"gt": ">", "ge": ">=", "lt": "<", "le": "<="}
 OUT_OF_BOUNDS = ("greater_than", "greater_than_equal", "less_than", "less_than_equal")  # pydantic's names
 
@@ -379,12 +357,9 @@ def _sentence(cls: Any, error: Mapping[str, Any]) -> str:
     where = f"{cls.__name__}.{path}" if path else cls.__name__
     item, kind, context = f"{where} = {short(error['input'])}", error["type"], error.get("ctx", {})
     if kind.startswith("unexpected_"):
-        if instead := removed_fields(cls).get(path):
+        if instead := cls.removed.get(path):
             return f"{item}: there is no such field any more; {instead}"
-        fields = [field.name for field in dataclasses.fields(cls)]
-        near = get_close_matches(path[:NEAREST], fields, 1)
-        guess = f"did you mean {near[0]}? " if near else ""
-        return f"{item}: unknown field; {guess}the fields are {', '.join(fields)}"
+        return f"{item}: unknown field; {nearest(path, [each.name for each in dataclasses.fields(cls)])}"
     if kind.startswith("missing"):
         return f"{where}: missing; it has no default"
     if kind == "value_error" and not path:  # a check of ours over several fields

@@ -8,9 +8,9 @@ from dataclasses import replace
 
 from pydantic import model_validator
 
-from support_exudyn.files.toml.faults import nearest
 from support_exudyn.model.actuators import CylinderAndRod
 from support_exudyn.model.linkage import Part, bar
+from user_forces.values.names import nearest
 from user_forces.values.units import Kilograms, KilogramSquareMetres, Metres, Radians
 from user_forces.values.value import InputError, Positive, Real, Value, Vector2, value
 

@@ -13,15 +13,14 @@ from importlib import import_module, resources
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
-from support_exudyn.files.toml.faults import nearest
 from support_exudyn.files.toml.reading import read_value
-from support_exudyn.files.toml.schema import Schemas, without
+from support_exudyn.files.toml.schema import Schemas
 from support_exudyn.files.toml.text import parsed, text_of
 from support_exudyn.files.whole_file import missing_file
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.model.actuators import CylinderAndRod, OilColumn, RigidActuator
 from support_exudyn.model.machine import Machine
-from user_forces.values.names import meant
+from user_forces.values.names import meant, nearest
 from user_forces.values.places import keep_classes
 from user_forces.values.sourced import SourcedNumber
 from user_forces.values.value import InputError, short
@@ -170,10 +169,10 @@ def cylinders_and_rods(
 
 def machine_schema() -> dict[str, Any]:
     """The JSON Schema (2020-12) of machine data files, which are told apart by their key `kind`."""
-    schemas = Schemas(sourced=True)
+    schemas = Schemas()
     tables = []
     for kind in map(_file_of, FILES):
-        schemas.defs[kind.__name__] = without(schemas.table(kind), "type")
+        schemas.defs[kind.__name__] = schemas.table(kind, typed=False)
         tables.append(schemas.value(kind))
     about = "Bodies, pivots and masses of one machine; mm, kg and degrees are usual."
     top = {"description": about, "type": "object", "required": ["kind"], "oneOf": tables}

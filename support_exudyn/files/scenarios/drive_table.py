@@ -12,8 +12,8 @@ import numpy as np
 
 from support_exudyn.files.series.named_series import NamedSeries
 from support_exudyn.files.series.read import read_series
-from support_exudyn.files.toml.faults import nearest
 from support_exudyn.model.drives.table_drive import TableDrive
+from user_forces.values.names import nearest
 from user_forces.values.units import Metres, Radians, Unit
 from user_forces.values.value import InputError, short
 

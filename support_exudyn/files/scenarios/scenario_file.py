@@ -16,8 +16,8 @@ from support_exudyn.files.scenarios.short_forms import (
 )
 from support_exudyn.files.scenarios.short_joints import ShortGuide, ShortPin
 from support_exudyn.files.toml.faults import Faults
-from support_exudyn.files.toml.reading import FAILED, Reader
-from support_exudyn.files.toml.schema import Schemas, without
+from support_exudyn.files.toml.reading import FAILED, Reader, plain_numbers
+from support_exudyn.files.toml.schema import Schemas
 from support_exudyn.files.toml.shapes import GroupShape, field_shapes
 from support_exudyn.files.toml.text import load_toml, toml_text
 from support_exudyn.files.toml.writing import table_of
@@ -118,8 +118,9 @@ def read_machine_in(path: str | Path) -> MachineData:
         return load_machine(path)
     faults = Faults(str(path))
     table = without_places({"machine": table["machine"]}, faults, path.parent)
+    table = plain_numbers(table, (), faults, {})
     faults.check()
-    found = read_machine_of(table, faults, path.parent, {})
+    found = read_machine_of(table, faults, path.parent)
     faults.check()
     if found is None:
         raise InputError(f"{path}: machine: cannot be read")
@@ -150,6 +151,7 @@ def scenario_file_of(
     sourced = {} if sourced is None else sourced
     table = without_places(table, faults, folder)
     faults.check()  # without these classes more would be wrong that is not
+    table = plain_numbers(table, (), faults, sourced)
     head = Reader(faults).value(ScenarioHead, {key: table[key] for key in HEAD if key in table}, ())
     rest = {key: item for key, item in table.items() if key not in HEAD}
     other = next((said for key, said in OTHER_FILES.items() if key in rest and "machine" not in rest), "")
@@ -157,8 +159,8 @@ def scenario_file_of(
         raise InputError(f"{where}: {other}")
     if rest.get("type", "Scenario") != "Scenario":
         faults.wrong(("type",), rest["type"], '"Scenario", or to leave it out')
-    machine = read_machine_of(rest, faults, folder, sourced)
-    scenario = _scenario(rest, faults, folder, machine, sourced)
+    machine = read_machine_of(rest, faults, folder)
+    scenario = _scenario(rest, faults, folder, machine)
     faults.check()
     assert machine is not None  # else it is among the faults
     warnings = (*machine.warnings, *_undriven(scenario, "drive" in rest))
@@ -184,17 +186,11 @@ def _undriven(scenario: Scenario, says_drive: bool) -> Iterator[str]:
         )
 
 
-def _scenario(
-    table: dict[str, Any],
-    faults: Faults,
-    folder: Path,
-    machine: MachineData | None,
-    sourced: dict[str, SourcedNumber],
-) -> Any:
+def _scenario(table: dict[str, Any], faults: Faults, folder: Path, machine: MachineData | None) -> Any:
     """A scenario, or FAILED."""
     forms = ShortForms(folder, machine, table)
     shorts = {Pin: forms.pin, Guide: forms.guide, ActuatorModel: forms.actuator, Drive: forms.drive}
-    reader = Reader(faults, {**shorts, Machine: forms.machine}, sourced)
+    reader = Reader(faults, {**shorts, Machine: forms.machine})
     apart = forms.drives(reader, table)
     if apart:
         own = {name: one for name, one in table["drives"].items() if isinstance(one, dict)}
@@ -270,53 +266,32 @@ def scenario_schema() -> dict[str, Any]:
 
     What only a whole scenario can tell (whether the machine has such a pin) is left to the reader.
     """
-    schemas = Schemas(sourced=True)
+    schemas = Schemas()
     about = f"path of a machine's file from the folder of this one on, or one of {', '.join(SHIPPED)}"
     schemas.besides[Machine] = [{"type": "string", "description": about}]
-    schemas.besides[Pin] = [_short(schemas.table(ShortPin)), _ideal(schemas, IdealPin)]
-    schemas.besides[Guide] = [_short(schemas.table(ShortGuide)), _ideal(schemas, IdealGuide)]
-    schemas.besides[Drive] = [_mode(schemas), _short(schemas.table(DriveFile))]
+    ideal = {"ideal": {"const": True, "description": "ideal, as all are that no table speaks of"}}
+    for base, kind, short in ((Pin, IdealPin, ShortPin), (Guide, IdealGuide, ShortGuide)):
+        schemas.besides[base] = [schemas.table(short, typed=False), _with_key(schemas, kind, ideal)]
+    said = "1: constant speed from rest, without transition (`UniformSpeed`); 2: a smooth inlet (`CubicStep`)."
+    mode = _with_key(schemas, UniformSpeed, {"mode": {"enum": [1, 2], "description": said}})
+    mode["description"] = (
+        "A stroke in one of the paper's drive modes, by default the stroke of the machine's file."
+    )
+    schemas.besides[Drive] = [mode, schemas.table(DriveFile, typed=False)]
     top = schemas.table(Scenario)
-    properties = top["properties"]
-    drives = _short(schemas.table(DrivesFile))["properties"]
+    properties = {**schemas.table(ScenarioHead, typed=False)["properties"], **top["properties"]}
+    drives = schemas.table(DrivesFile, typed=False)["properties"]
     properties["drives"] = {**properties["drives"], "properties": drives}
-    properties["actuators"] = {
-        **properties["actuators"],
-        "additionalProperties": _actuators(schemas),
-    }
-    properties = {**_short(schemas.table(ScenarioHead))["properties"], **properties}
+    tables = [  # those of two bodies may leave out what the machine's file has
+        schemas.table(kind, all_optional=True) if kind is CylinderAndRod else schemas.value(kind)
+        for kind in GroupShape((ActuatorModel,)).kinds.values()
+    ]
+    actuators = {"oneOf": [{"allOf": [table], "required": ["type"]} for table in tables]}
+    properties["actuators"] = {**properties["actuators"], "additionalProperties": actuators}
     return schemas.whole("scenario of support-exudyn", {**top, "properties": properties})
 
 
-def _short(table: dict[str, Any]) -> dict[str, Any]:
-    """The schema of a short form, which says no type."""
-    return without(table, "type")
-
-
-def _ideal(schemas: Schemas, kind: type[Value]) -> dict[str, Any]:
-    table = _short(schemas.table(kind))
-    ideal = {"const": True, "description": "ideal, as all are that no table speaks of"}
-    return {**table, "properties": {"ideal": ideal, **table["properties"]}, "required": ["ideal"]}
-
-
-def _mode(schemas: Schemas) -> dict[str, Any]:
-    table = _short(schemas.table(UniformSpeed))
-    said = "1: constant speed from rest, without transition (`UniformSpeed`); 2: a smooth inlet (`CubicStep`)."
-    mode = {"enum": [1, 2], "description": said}
-    about = "A stroke in one of the paper's drive modes, by default the stroke of the machine's file."
-    return {
-        **table,
-        "description": about,
-        "properties": {"mode": mode, **table["properties"]},
-        "required": ["mode"],
-    }
-
-
-def _actuators(schemas: Schemas) -> dict[str, Any]:
-    """The schema of actuators; those of two bodies may leave out what the machine's file says."""
-    kinds = GroupShape((ActuatorModel,)).kinds.values()
-    tables = [
-        schemas.table(kind, all_optional=True) if kind is CylinderAndRod else schemas.value(kind)
-        for kind in kinds
-    ]
-    return {"oneOf": [{"allOf": [table], "required": ["type"]} for table in tables]}
+def _with_key(schemas: Schemas, kind: type[Value], key: dict[str, Any]) -> dict[str, Any]:
+    """The schema of a short form that a key marks, in place of its type."""
+    table = schemas.table(kind, typed=False)
+    return {**table, "properties": {**key, **table["properties"]}, "required": list(key)}

@@ -23,7 +23,6 @@ from support_exudyn.model.hydraulics.leg import HydraulicCylinder
 from support_exudyn.model.machine import Machine
 from support_exudyn.model.pins import IdealPin, Pin
 from user_forces.values.names import unknown
-from user_forces.values.sourced import SourcedNumber
 from user_forces.values.units import ANGLES, LENGTHS, Hertz
 from user_forces.values.value import InputError, Positive, Value, value
 
@@ -61,18 +60,13 @@ class DriveFile(DrivesFile):
     column: str | None = None
 
 
-def read_machine_of(
-    table: Mapping[str, Any], faults: Faults, folder: Path, sourced: dict[str, SourcedNumber] | None = None
-) -> MachineData | None:
-    """The machine that a scenario's table names or holds; None, with the reason among the faults.
-
-    sourced: of numbers of a table, see `Reader`.
-    """
+def read_machine_of(table: Mapping[str, Any], faults: Faults, folder: Path) -> MachineData | None:
+    """The machine that a scenario's table names or holds; None, with the reason among the faults."""
     given = table.get("machine")
     if isinstance(given, str):
         return _from_file(given, faults, folder)
     if isinstance(given, dict):
-        found = Reader(faults, sourced=sourced).member(GroupShape((Machine,)), given, ("machine",))
+        found = Reader(faults).member(GroupShape((Machine,)), given, ("machine",))
         return None if found is FAILED else MachineData(found)
     if isinstance(given, (Machine, MachineData)):  # made by a program, see `simple_scenario`
         return MachineData(given) if isinstance(given, Machine) else given

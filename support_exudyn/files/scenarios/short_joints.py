@@ -7,8 +7,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC
-from collections.abc import Callable, Mapping
-from functools import partial
+from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Annotated, Any, ClassVar, Literal
 
@@ -18,7 +17,7 @@ from support_exudyn.files.toml.shapes import Names
 from support_exudyn.model.guides import ClearanceGuide, Gaps, Guide, IdealGuide
 from support_exudyn.model.machine import Machine
 from support_exudyn.model.pin_surroundings import contact_length, links_stiffness
-from support_exudyn.model.pins import CYLINDERS, ClearancePin, IdealPin, Stiffness, on_cylinders
+from support_exudyn.model.pins import ClearancePin, IdealPin, Stiffness, on_cylinders
 from support_exudyn.model.simple_laws import friction_of
 from user_forces.backing import in_series, pin_stiffness
 from user_forces.friction.law import FrictionLaw
@@ -69,28 +68,19 @@ def needed_by(law: type[Value]) -> set[str]:
     return {name for name, one in info.items() if one.is_required()}
 
 
-def _in_full(base: type[Value], key: str, takes: str, place: str, name: str) -> str:
-    """Advice on a law that a short form has no room for, or that is not known."""
-    known = kinds_of(base)
-    if name not in known:
-        return f'a law of your own: {key} = "FILE.py:CLASS", with --import FILE'
-    needed = ", ".join(sorted(needed_by(known[name]))) or "fields of its own"
-    return (
-        f"{key} takes laws of {takes} only, and {name} has {needed}: give it in full, "
-        f'{place}{{ type = "{name}", ... }}'
-    )
-
-
-IN_FULL = 'type = "ClearancePin" and in [pins.NAME.contact], or "ClearanceGuide" and in it, normal = '
+IN_FULL = (
+    "{key} takes laws of {takes} only; give any other in full, {place}{{ type = ..., ... }}; one of your own "
+    'as {key} = "FILE.py:CLASS", with --import FILE'
+)
+OF_JOINTS = 'type = "ClearancePin" and in [pins.NAME.contact], or "ClearanceGuide" and in it, normal = '
 SimpleLaw = Annotated[
-    str,
-    Names(simple_laws, instead=partial(_in_full, NormalLaw, "law", "stiffness and restitution", IN_FULL)),
+    str, Names(simple_laws, IN_FULL.format(key="law", takes="stiffness and restitution", place=OF_JOINTS))
 ]
 SimpleFriction = Annotated[
     str,
     Names(
         simple_friction_laws,
-        instead=partial(_in_full, FrictionLaw, "friction_law", "one coefficient", "friction = "),
+        IN_FULL.format(key="friction_law", takes="one coefficient", place="friction = "),
     ),
 ]
 
@@ -118,7 +108,8 @@ class ShortContact(Value, ABC):
     rest_velocity: MetresPerSecond[Positive] | None = None
 
     @classmethod
-    def _of_earlier(cls, given: Mapping[str, Any]) -> Mapping[str, Any]:
+    def of_earlier(cls, given: Mapping[str, Any]) -> Mapping[str, Any]:
+        """The fields without those of earlier versions."""
         return without_damping_speed(given)
 
     @model_validator(mode="after")
@@ -142,13 +133,14 @@ class ShortContact(Value, ABC):
             return self.friction
         law: Any = kinds_of(FrictionLaw)[self.friction_law]
         coefficient = next(iter(needed_by(law)), COEFFICIENT)
-        takes = coefficient in law.__pydantic_fields__
-        if self.friction and not takes:
+        if coefficient in law.__pydantic_fields__:
+            return law(**{coefficient: self.friction})  # type: ignore[no-any-return]
+        if self.friction:
             raise InputError(
                 f"friction = {self.friction:g}: {self.friction_law} has no coefficient; allowed with it: to "
                 "leave this out"
             )
-        return law(**({coefficient: self.friction} if takes else {}))  # type: ignore[no-any-return]
+        return law()  # type: ignore[no-any-return]
 
     @property
     def ideal_friction(self) -> FrictionLaw | None:
@@ -200,10 +192,10 @@ class ShortPin(ShortContact):
     def ideal(self, bore_radius: float | None) -> IdealPin:
         """The pin without clearance; bore_radius: of the machine's file [m], if this has none."""
         friction = self.ideal_friction
-        return IdealPin() if friction is None else IdealPin(friction=friction, radius=self._radius(bore_radius))
+        return IdealPin() if friction is None else IdealPin(friction=friction, radius=self.radius(bore_radius))
 
-    def _radius(self, bore_radius: float | None) -> float:
-        """Radius of the bore [m], of this or else of the machine's file. Raises InputError without either."""
+    def radius(self, bore_radius: float | None) -> float:
+        """Radius of the bore [m], of this or of the machine's file. Raises InputError without either."""
         radius = bore_radius if self.bore_radius is None else self.bore_radius
         if radius is None:
             raise InputError(
@@ -212,78 +204,43 @@ class ShortPin(ShortContact):
             )
         return radius
 
-    def pin(
-        self,
-        bore_radius: float | None = None,
-        length: float | None = None,
-        links: Callable[[Material], float] = lambda material: math.inf,
-    ) -> ClearancePin:
-        """The pin in full.
-
-        Arguments:
-            bore_radius, length: of the machine's file [m], if this has none.
-            links: stiffness [N/m] of the links that the pin joins, of a material.
-        """
-        radius = self._radius(bore_radius)
-        if self.clearance >= radius:  # which the class says in metres
-            raise InputError(
-                f"clearance_mm = {1e3 * self.clearance:g}: leaves no journal in a bore of bore_radius_mm = "
-                f"{1e3 * radius:g}; allowed: > 0 and < {1e3 * radius:g}"
-            )
-        law = self.law_class
-        length = length if self.length is None else self.length
-        if self.stiffness == CYLINDERS and length is None:
-            raise InputError(
-                "length_mm: missing, and the machine's file says none for this pin below [width_mm.pins]; "
-                "allowed: > 0, here or there"
-            )
-        bore, journal = _material(self.bore_material, STEEL), _material(self.journal_material, STEEL_35CRMO)
-        along = on_cylinders(self.stiffness, length, law)
-        if self.backing_stiffness is not None and not along:
-            raise InputError(
-                'backing_stiffness: is of stiffness = "cylinders" alone; allowed without it: to leave this out'
-            )
-        backing = None
-        if along and length is not None:
-            backing = self._backing(radius, length, journal, links(bore))
-        return ClearancePin.simple(
-            clearance=self.clearance,
-            bore_radius=radius,
-            restitution=self.restitution,
-            friction=self.chosen_friction,
-            law=law,
-            rest_velocity=self.rest_velocity,
-            stiffness=self.stiffness,
-            length=length if along else self.length,
-            backing_stiffness=backing,
-            bore_material=bore,
-            journal_material=journal,
-            bore=self.bore,
-            eccentricity=self.eccentricity,
-        )
-
-    def _backing(self, bore_radius: float, length: float, journal: Material, links: float) -> float:
-        """Stiffness [N/m] of pin and links behind the contact; infinite if it is rigid."""
-        if isinstance(self.backing_stiffness, float):
-            return self.backing_stiffness
-        if self.backing_stiffness == "rigid":
-            return math.inf
-        return in_series((pin_stiffness(bore_radius - self.clearance, length, journal), links))
-
 
 def pin_in_machine(short: ShortPin, machine: Machine, name: str, bore_radius: float | None) -> ClearancePin:
-    """A pin with what the machine knows of it: the length of its contact, and the links that it joins.
+    """A pin in full: length of the contact and stiffness of the links are those of the machine.
 
     Arguments:
-        short: what is said of the pin.
-        machine: with a pin of this name, or without one: then nothing is known.
+        short: the pin.
+        machine: with or without a pin of this name; without, length and links are unknown.
         name: of the pin.
-        bore_radius: of the machine's file [m], None if it says none.
+        bore_radius: of the machine's file [m], None if it has none.
     """
-    if name not in machine.linkage().pins:
-        return short.pin(bore_radius)
-    length = contact_length(machine, name)
-    return short.pin(bore_radius, length, partial(links_stiffness, machine, name))
+    law, length, radius = short.law_class, short.length, short.radius(bore_radius)
+    bore, journal = _material(short.bore_material, STEEL), _material(short.journal_material, STEEL_35CRMO)
+    is_known = name in machine.linkage().pins
+    if length is None and is_known:
+        length = contact_length(machine, name)
+    along = on_cylinders(short.stiffness, length, law)
+    backing = math.inf if short.backing_stiffness == "rigid" else short.backing_stiffness
+    if not isinstance(backing, float):
+        backing = None
+        if along and length is not None:
+            links = links_stiffness(machine, name, bore) if is_known else math.inf
+            backing = in_series((pin_stiffness(radius - short.clearance, length, journal), links))
+    return ClearancePin.simple(
+        clearance=short.clearance,
+        bore_radius=radius,
+        restitution=short.restitution,
+        friction=short.chosen_friction,
+        law=law,
+        rest_velocity=short.rest_velocity,
+        stiffness=short.stiffness,
+        length=length if along else short.length,
+        backing_stiffness=backing,
+        bore_material=bore,
+        journal_material=journal,
+        bore=short.bore,
+        eccentricity=short.eccentricity,
+    )
 
 
 @value

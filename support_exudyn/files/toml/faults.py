@@ -1,9 +1,8 @@
-"""Where in a file something stands, and what is said of all that is wrong in it."""
+"""The faults of a file, each with its key, its value and what is allowed."""
 
 import re
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 from decimal import Decimal
-from difflib import get_close_matches
 from typing import Any
 
 from user_forces.values.value import InputError, short, step
@@ -15,7 +14,7 @@ MOST_LINES = 30
 
 
 class Faults:
-    """The faults that were found in a file, one line each.
+    """The faults of a file, one line each.
 
     where: the file's name, or what the table is.
     """
@@ -24,36 +23,25 @@ class Faults:
         self.where = where
         self.lines: list[str] = []
 
-    @property
-    def is_full(self) -> bool:
-        """Whether more was noted than is shown, so that nothing needs to be said of what follows."""
-        return len(self.lines) > MOST_LINES
-
     def add(self, place: Place, text: str) -> None:
-        """Note what is said of a place."""
+        """Note the fault of a place."""
         self.lines.append(": ".join(filter(None, (self.where, place_text(place), text))))
 
+    def refuse(self, place: Place, item: Any, text: str) -> None:
+        """Note a value that cannot be used, and why."""
+        self.add((), ": ".join(filter(None, (f"{place_text(place)} = {quoted(item)}", text))))
+
     def wrong(self, place: Place, item: Any, allowed: str) -> None:
-        """Note a value that cannot be used."""
-        key = place_text(place)
-        self.lines.append(
-            ": ".join(filter(None, (self.where, f"{key} = {quoted(item)}", f"allowed: {allowed}")))
-        )
+        """Note a value that cannot be used, and what is allowed."""
+        self.refuse(place, item, f"allowed: {allowed}")
 
     def check(self) -> None:
-        """Raise InputError if anything was added."""
+        """Raise InputError if there are faults."""
         if not self.lines:
             return
         rest = len(self.lines) - MOST_LINES
         more = [": ".join(filter(None, (self.where, f"and {rest} more")))] if rest > 0 else []
         raise InputError("\n".join([*dict.fromkeys(self.lines[:MOST_LINES]), *more]))
-
-
-def nearest(word: str, known: Collection[str]) -> str:
-    """The hint for a misspelt word: the names that look like it, then all that are allowed."""
-    near = get_close_matches(word[:LONGEST], known, 3)
-    guess = f"did you mean {' or '.join(near)}? " if near else ""
-    return f"{guess}allowed: {', '.join(known) or 'none'}"
 
 
 def place_text(place: Place) -> str:
@@ -62,7 +50,7 @@ def place_text(place: Place) -> str:
 
 
 def dotted_key(place: Place) -> str:
-    """Keys as a sweep joins them: those of lists are the numbers of their items, from 0."""
+    """Keys as a sweep joins them: items of lists by their numbers, from 0."""
     return re.sub(r"\[(\d+)\]", r".\1", place_text(place))
 
 
@@ -75,7 +63,8 @@ def quoted(item: Any, level: int = 0) -> str:
     elif isinstance(item, Mapping):
         text = "a table"
     elif isinstance(item, list):
-        text = f"[{', '.join(quoted(one, level + 1) for one in item[:LONGEST])}]" if level < NESTED else "[...]"
+        inside = ", ".join(quoted(each, level + 1) for each in item[:LONGEST]) if level < NESTED else "..."
+        text = f"[{inside}]"
     else:
         text = short(item)
     return text if len(text) <= LONGEST else text[: LONGEST - 3] + "..."

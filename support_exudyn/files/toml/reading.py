@@ -1,17 +1,15 @@
-"""Tables of files are read as values: keys become fields in SI, which pydantic checks."""
+"""Tables of files are read as values: keys become fields in SI, which pydantic validates."""
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from decimal import Decimal
 from difflib import get_close_matches
-from functools import partial
 from typing import Any, TypeVar
 
 from pydantic import ValidationError
 
-from support_exudyn.files.toml.faults import Faults, Place, dotted_key, nearest, place_text, quoted
+from support_exudyn.files.toml.faults import Faults, Place, dotted_key, quoted
 from support_exudyn.files.toml.shapes import (
-    BOUNDS,
     SOURCED_KEYS,
     FieldShape,
     GroupShape,
@@ -23,43 +21,28 @@ from support_exudyn.files.toml.shapes import (
     is_number,
     options,
 )
+from user_forces.values.names import nearest
 from user_forces.values.sourced import SourcedNumber
 from user_forces.values.units import Unit
-from user_forces.values.value import (
-    LARGEST,
-    LENGTHS,
-    InputError,
-    Value,
-    of_earlier_version,
-    removed_fields,
-    validated,
-)
+from user_forces.values.value import LARGEST, LENGTHS, InputError, Value, validated
 
 V = TypeVar("V", bound=Value)
-SMALLEST_EXPONENT = -1000  # of a decimal; what is smaller is 0
+SMALLEST_EXPONENT = -1000  # of a decimal; smaller numbers are 0
 ShortForm = Callable[["Reader", Any, Place], Any]
-
 
 FAILED: Any = object()  # stands for a value that could not be read; the reason is among the faults
 
 
 class Reader:
-    """Reads values from tables, and collects what is wrong with them.
+    """Reads values from tables, and collects their faults.
 
-    faults: what was wrong so far. short_forms: for a class, another way to write its values: is given the item
-    and its place, and gives the value, FAILED, or None if the item is in the long form. sourced: where numbers
-    may be tables `{ value, from, to, source }`, these are put there by their dotted keys; None: they may not.
+    faults: collects them. short_forms: by class, another way to write its values: takes the reader, the item
+    and its place, and returns the value, FAILED, or None if the item is in the long form.
     """
 
-    def __init__(
-        self,
-        faults: Faults,
-        short_forms: Mapping[type[Value], ShortForm] | None = None,
-        sourced: dict[str, SourcedNumber] | None = None,
-    ) -> None:
+    def __init__(self, faults: Faults, short_forms: Mapping[type[Value], ShortForm] | None = None) -> None:
         self.faults = faults
         self.short_forms = dict(short_forms or {})
-        self.sourced = sourced
 
     def value(
         self,
@@ -69,13 +52,12 @@ class Reader:
         base: Value | None = None,
         also: tuple[str, ...] = (),
     ) -> Any:
-        """A value of a class from its table, whose `type` is known to fit; FAILED if something is wrong.
+        """A value of a class from its table, whose `type` is known to fit; FAILED if the table has faults.
 
-        base: a value whose fields stand for those that are not given. also: keys that the table may have
-        besides, which somebody else reads.
+        base: a value whose fields replace missing ones. also: keys of the table that are read elsewhere.
         """
         before, fields, found = len(self.faults.lines), field_shapes(cls), FAILED
-        table = of_earlier_version(cls, table)
+        table = cls.of_earlier(table)
         given, keys = self._given(cls, table, place, also)
         for field in fields.values():
             if field.name not in given and base is not None:
@@ -95,31 +77,27 @@ class Reader:
     ) -> tuple[dict[str, Any], dict[str, str]]:
         """The fields that a table gives, in SI, FAILED for those of wrong keys; and their keys."""
         fields = field_shapes(cls)
-        known = {key: one for one in fields.values() for key in one.keys}
+        known = {key: field for field in fields.values() for key in field.keys}
         given: dict[str, Any] = {}
-        by: dict[str, str] = {}
+        keys: dict[str, str] = {}
         for key, item in table.items():
             if key == "type":
                 continue
-            field, here = known.get(key), (*place, key)
+            field, fault = known.get(key), ""
             if field is None:
-                meant, reason = "", "unknown key"
-                if not self.faults.is_full:
-                    meant, reason = _removed(cls, key) or _unknown(key, fields, also)
-                self.faults.add(here, reason)
-                if meant in fields:
-                    given[meant] = FAILED
-            elif field.name in by:
-                self.faults.add(here, f"is given twice, {by[field.name]} says the same; allowed: one of them")
-                given[field.name] = FAILED
+                name, fault = _unknown(cls, key, also)
+            elif (name := field.name) in keys:
+                fault = f"is given twice, {keys[name]} says the same; allowed: one of them"
             elif field.unit is not None and not field.ending(key) and _holds_number(item):
-                allowed_keys = ", ".join(field.keys[:-1])
-                self.faults.add(here, f"a number needs its unit in the key; allowed: {allowed_keys}")
-                given[field.name] = FAILED
+                fault = f"a number needs its unit in the key; allowed: {', '.join(field.keys[:-1])}"
+            if fault:
+                self.faults.add((*place, key), fault)
+            if field is None or fault:
+                given |= {name: FAILED} if name in fields else {}
             else:
-                by[field.name] = key
-                given[field.name] = self._in_si(field.shape, item, here, field.unit, field.ending(key))
-        return given, by
+                keys[name] = key
+                given[name] = self._in_si(field.shape, item, (*place, key), field.unit, field.ending(key))
+        return given, keys
 
     def _note(
         self,
@@ -129,10 +107,8 @@ class Reader:
         place: Place,
     ) -> None:
         """Note pydantic's errors of a table; given: by the names of fields, their keys and items."""
-        notes: dict[tuple[Any, ...], Callable[[], None] | None] = {}  # by their places; None: is noted already
-        errors: list[Any] = list(found.errors(include_url=False))
-        extra = [error["loc"] for error in errors if error["type"] == "extra_forbidden"]
-        for error in errors:
+        notes: dict[tuple[Any, ...], tuple[Any, ...] | None] = {}  # by their locations; None: is noted already
+        for error in found.errors(include_url=False):
             name, *rest = error["loc"] or ("",)
             if not name:
                 for line in str(error.get("ctx", {}).get("error", error["msg"])).splitlines():
@@ -140,137 +116,100 @@ class Reader:
             elif error["input"] is FAILED:
                 notes[error["loc"]] = None
             elif name not in given:
-                self.faults.add((*place, fields[name].keys[0]), "missing; it has no default")
+                self.faults.add((*place, fields[str(name)].keys[0]), "missing; it has no default")
             else:
-                field, (key, item) = fields[name], given[name]
-                shape, here, at = field.shape, (*place, key), error["loc"][:1]
+                field, (key, item) = fields[str(name)], given[str(name)]
+                outer = shape = field.shape
+                here, last = (*place, key), str(error["loc"][-1])
+                at: tuple[Any, ...] = (name,)
                 for part in rest:
-                    if isinstance(part, str) and not isinstance(item, dict):  # how pydantic names a choice
+                    if isinstance(part, str) and not isinstance(item, dict):  # pydantic's name of a choice
                         continue
-                    if not _has(item, part) or (*at, part) in extra:
+                    if not _has(item, part):
                         break
-                    shape, item, at = inner_shape(shape, part), item[part], (*at, part)
-                    here = (*here[:-1], f"{here[-1]}[{part}]") if isinstance(part, int) else (*here, part)
-                last = str(error["loc"][-1])
-                if error["loc"] in extra:
-                    hint = "" if self.faults.is_full else f"; {nearest(last, shape['properties'])}"
-                    self.faults.add((*here, last), f"unknown key{hint}")
+                    outer, shape = shape, inner_shape(shape, part)
+                    item, at = item[part], (*at, part)
+                    here = (*here[:-1], f"{here[-1]}[{part}]") if isinstance(part, int) else (*here, str(part))
+                if error["type"] == "extra_forbidden":
+                    self.faults.add(here, f"unknown key; {nearest(last, outer['properties'])}")
                 elif error["type"] == "missing" and isinstance(item, dict):
-                    near = (get_close_matches(str(one[-1])[:80], [last], 1) for one in extra if one[:-1] == at)
-                    if not any(near):  # else it is misspelt
-                        said_of_it = shape["properties"][last]["description"]
-                        self.faults.add((*here, last), f"missing; it has no default: {said_of_it}")
+                    meaning = shape["properties"][last]["description"]
+                    self.faults.add((*here, last), f"missing; it has no default: {meaning}")
                 else:
-                    note = partial(self._refuse, shape, item, here, field.unit, field.ending(key), error)
-                    notes.setdefault(at, note)
-        for at, one in notes.items():
-            if one is not None and not any(len(other) > len(at) and other[: len(at)] == at for other in notes):
-                one()
+                    notes.setdefault(at, (here, item, shape, field.unit, field.ending(key), error))
+        for at, note in notes.items():
+            if note and not any(len(other) > len(at) and other[: len(at)] == at for other in notes):
+                self._refuse(*note)
 
     def _refuse(
-        self, shape: Shape, item: Any, place: Place, unit: Unit | None, ending: str, error: Any = None
+        self,
+        place: Place,
+        item: Any,
+        shape: Shape,
+        unit: Unit | None = None,
+        ending: str = "",
+        error: Any = None,
     ) -> None:
-        """Note an item that does not fit, and what does; error: pydantic's, whose own words may be better."""
-        said_of_item = f"{place_text(place)} = {quoted(item)}"
-        shape = either([one for one in options(shape) if _is_of_kind(one, item)] or options(shape))
+        """Note an item that does not fit, and what does; error: pydantic's."""
+        shape = either([each for each in options(shape) if _is_of_kind(each, item)] or options(shape))
+        kind = "" if error is None else error["type"]
+        if is_number(shape) and isinstance(item, dict) and item.keys() - SOURCED_KEYS.keys():
+            for key in item.keys() - SOURCED_KEYS.keys():
+                self.faults.add((*place, key), f"unknown key; {nearest(key, SOURCED_KEYS)}")
+            return
+        text = f"allowed: {allowed(shape, unit, ending)}"
         if "names" in shape and isinstance(item, str):
             names = shape["names"]
-            more = f"; {names.instead(item)}" if names.instead else ""
-            self.faults.add((), f"{said_of_item}: {nearest(item, names.options)}{more}")
-            return
-        if error is not None and error["type"] == "value_error" and _is_for(shape, item, unit, ending):
-            self.faults.add((), f"{said_of_item}: {error['ctx']['error']}")
-            return
-        if error is not None and error["type"] in LENGTHS and "prefixItems" not in shape:
+            text = "; ".join(filter(None, (nearest(item, names.options), names.instead)))
+        elif kind in LENGTHS and "prefixItems" not in shape:
             least, most = (error["ctx"].get(f"{end}_length") for end in ("min", "max"))
-            self.faults.wrong(place, item, f"at least {least} items" if least else f"at most {most} items")
-            return
-        range_ = allowed(shape, unit, ending)
-        if is_number(shape) and not _is_number(item):
-            range_ = range_ if range_.startswith("a ") else f"a number {range_}"
+            text = f"allowed: {f'at least {least}' if least else f'at most {most}'} items"
+        elif is_number(shape) and not _is_number(item):
+            text = text if text.startswith("allowed: a ") else f"allowed: a number {text[9:]}"
         elif is_number(shape) and not abs(_number_in_si(item, unit, ending)) <= LARGEST:
-            range_ += f" up to {LARGEST:g}, in SI"
-        self.faults.wrong(place, item, range_)
+            text += f" up to {LARGEST:g}, in SI"
+        elif kind == "value_error" and any(_is_of_kind(each, item) for each in options(shape)):
+            is_whole = shape.get("type") != "integer" or item == math.floor(item)
+            text = str(error["ctx"]["error"]) if is_whole else text
+        self.faults.refuse(place, item, text)
 
     def _in_si(self, shape: Shape, item: Any, place: Place, unit: Unit | None, ending: str) -> Any:
-        """An item as pydantic takes it: numbers in SI, values of classes; FAILED if it is wrong inside."""
+        """An item as pydantic takes it: numbers in SI, values of classes; FAILED if it has faults inside."""
         several = options(shape)
         if item is FAILED:
             return item
         if _is_number(item) and shape.get("type") != "boolean":
             return item if unit is None and isinstance(item, int) else _number_in_si(item, unit, ending)
-        if isinstance(item, dict) and self.sourced is not None and _says_more(shape, item):
-            return self._sourced(self.sourced, shape, item, place, unit, ending)
-        group = next((one["group"] for one in several if "group" in one), None)
+        group = next((each["group"] for each in several if "group" in each), None)
         if group is not None and (len(several) == 1 or isinstance(item, dict)):
             return self.member(group, item, place)
-        if shape.get("type") == "boolean" and not isinstance(item, bool):  # where pydantic takes "yes", too
-            self._refuse(shape, item, place, unit, ending)
+        if shape.get("type") == "boolean" and not isinstance(item, bool):  # pydantic takes "yes", too
+            self._refuse(place, item, shape)
             return FAILED
         if isinstance(item, list):
             *before, last = place or ("",)
             return tuple(
-                self._in_si(inner_shape(shape, n), one, (*before, f"{last}[{n}]"), unit, ending)
-                for n, one in enumerate(item)
+                self._in_si(inner_shape(shape, n), each, (*before, f"{last}[{n}]"), unit, ending)
+                for n, each in enumerate(item)
             )
         if not isinstance(item, dict):
             return item
         return {
-            name: self._in_si(inner_shape(shape, name), one, (*place, name), unit, ending)
-            for name, one in item.items()
+            name: self._in_si(inner_shape(shape, name), each, (*place, name), unit, ending)
+            for name, each in item.items()
         }
-
-    def _sourced(
-        self,
-        found: dict[str, SourcedNumber],
-        shape: Shape,
-        table: Mapping[str, Any],
-        place: Place,
-        unit: Unit | None,
-        ending: str,
-    ) -> Any:
-        """The value in SI of a number that is a table with its range and source, which is put into `found`."""
-        before = len(self.faults.lines)
-        shape = next(one for one in options(shape) if is_number(one))
-        for key in [one for one in table if one not in SOURCED_KEYS]:
-            self.faults.add((*place, key), f"unknown key; {nearest(key, SOURCED_KEYS)}")
-        numbers = {key: table[key] for key in ("value", "from", "to") if key in table}
-        for key, item in numbers.items():
-            if not (_is_number(item) and _is_within(_number_in_si(item, unit, ending), shape)):
-                self._refuse(shape, item, (*place, key), unit, ending)
-        if "value" not in table and table.keys() <= SOURCED_KEYS.keys():  # it may be misspelt
-            self.faults.add((*place, "value"), "missing; it has no default")
-        for one, other in (("from", "to"), ("to", "from")):
-            if one in table and other not in table:
-                self.faults.add((*place, other), "missing; a range has from and to")
-        source = table.get("source", "")
-        if not isinstance(source, str) or ("source" in table and not source.strip()):
-            self.faults.wrong((*place, "source"), source, "a text that is not empty")
-        if len(self.faults.lines) == before and "from" in table:
-            low, high = table["from"], table["to"]
-            if low > high:
-                self.faults.wrong((*place, "from"), low, f"<= to = {quoted(high)}")
-            elif not low <= table["value"] <= high:
-                self.faults.wrong((*place, "value"), table["value"], f"from {quoted(low)} to {quoted(high)}")
-        if len(self.faults.lines) > before:
-            return FAILED
-        written = {key: Decimal(str(item)) for key, item in numbers.items()}
-        found[dotted_key(place)] = SourcedNumber(
-            written["value"], written.get("from"), written.get("to"), source
-        )
-        return _number_in_si(table["value"], unit, ending)
 
     def member(self, group: GroupShape, item: Any, place: Place) -> Any:
         """A value of a group of classes from an item of a file; FAILED, with the reason among the faults."""
         for base, short_form in self.short_forms.items():
-            if any(issubclass(one, base) for one in group.bases):
+            if any(issubclass(each, base) for each in group.bases):
                 found = short_form(self, item, place)
                 if found is not None:
                     return found
         if isinstance(item, group.bases):  # made by a program, see `simple_scenario`
             return item
         if not isinstance(item, dict):
-            self._refuse({"group": group}, item, place, None, "")
+            self._refuse(place, item, {"group": group})
             return FAILED
         name = item.get("type")
         cls = group.usual if name is None else group.kinds.get(name) if isinstance(name, str) else None
@@ -279,8 +218,8 @@ class Reader:
         if name is None:
             self.faults.add((*place, "type"), f"missing; allowed: {', '.join(group.kinds) or 'none'}")
         else:
-            known = f"{nearest(str(name), group.kinds)}; classes of one's own: --import FILE"
-            self.faults.add((), f"{place_text((*place, 'type'))} = {quoted(name)}: {known}")
+            advice = f"{nearest(str(name), group.kinds)}; classes of one's own: --import FILE"
+            self.faults.refuse((*place, "type"), name, advice)
         return FAILED
 
 
@@ -296,44 +235,78 @@ def read_value(
     Arguments:
         cls: a class of values, or a kind of them; then `type` in the table says which.
         table: of the value.
-        where: what errors call it: the name of its file.
-        short_forms, sourced: see `Reader`.
+        where: the name of its file, for messages.
+        short_forms: see `Reader`.
+        sourced: collects numbers with range and source, see `plain_numbers`; None: the table has none.
 
-    Raises InputError with a line for everything that is wrong: file, key, value, and what is allowed.
+    Raises InputError with a line for every fault: file, key, value, and what is allowed.
     """
     faults = Faults(where)
-    found = Reader(faults, short_forms, sourced).member(GroupShape((cls,)), table, ())
+    item = table if sourced is None else plain_numbers(table, (), faults, sourced)
+    found = Reader(faults, short_forms).member(GroupShape((cls,)), item, ())
     faults.check()
     return found  # type: ignore[no-any-return]
 
 
-def _removed(cls: type[Value], key: str) -> tuple[str, str] | None:
-    """The field that there once was of which a key is, with or without its unit, and what is said of it."""
-    for name, instead in removed_fields(cls).items():
+def plain_numbers(item: Any, place: Place, faults: Faults, sourced: dict[str, SourcedNumber]) -> Any:
+    """An item of a file with plain numbers in place of tables `{ value, from, to, source }`.
+
+    sourced: collects the contents of these tables by their dotted keys.
+    """
+    if isinstance(item, list):
+        return [
+            plain_numbers(each, (*place[:-1], f"{place[-1]}[{n}]"), faults, sourced)
+            for n, each in enumerate(item)
+        ]
+    if not isinstance(item, dict):
+        return item
+    ends = {key: item[key] for key in ("value", "from", "to") if key in item}
+    is_sourced = "type" not in item and 2 * len(item.keys() & SOURCED_KEYS.keys()) > len(item)
+    if not (ends and is_sourced) or any(isinstance(each, (dict, list)) for each in ends.values()):
+        return {key: plain_numbers(each, (*place, key), faults, sourced) for key, each in item.items()}
+    before = len(faults.lines)
+    for key in item.keys() - SOURCED_KEYS.keys():
+        faults.add((*place, key), f"unknown key; {nearest(key, SOURCED_KEYS)}")
+    for key, end in ends.items():
+        if not _is_number(end):
+            faults.wrong((*place, key), end, "a number")
+    if "value" not in item:
+        faults.add((*place, "value"), "missing; it has no default")
+    for key, other in (("from", "to"), ("to", "from")):
+        if key in item and other not in item:
+            faults.add((*place, other), "missing; a range has from and to")
+    source = item.get("source", "")
+    if not isinstance(source, str) or ("source" in item and not source.strip()):
+        faults.wrong((*place, "source"), source, "a text that is not empty")
+    if len(faults.lines) == before and "from" in ends:
+        low, high = ends["from"], ends["to"]
+        if low > high:
+            faults.wrong((*place, "from"), low, f"<= to = {quoted(high)}")
+        elif not low <= ends["value"] <= high:
+            faults.wrong((*place, "value"), ends["value"], f"from {quoted(low)} to {quoted(high)}")
+    if len(faults.lines) > before:
+        return FAILED
+    written = {key: Decimal(str(end)) for key, end in ends.items()}
+    sourced[dotted_key(place)] = SourcedNumber(written["value"], written.get("from"), written.get("to"), source)
+    return item["value"]
+
+
+def _unknown(cls: type[Value], key: str, also: tuple[str, ...]) -> tuple[str, str]:
+    """The field that an unknown key may mean, which then is not called missing too; and the fault."""
+    for name, instead in cls.removed.items():
         if key == name or key.startswith(f"{name}_"):
             return key, f"there is no such key any more; {instead}"
-    return None
-
-
-def _unknown(key: str, fields: Mapping[str, FieldShape], also: Iterable[str]) -> tuple[str, str]:
-    """The field that a wrong key may mean, so that it is not called missing too; and what is said of it."""
+    fields = field_shapes(cls)
     for field in fields.values():
         if field.unit is not None and key.startswith(f"{field.name}_"):
             return field.name, f"has another unit; allowed: {', '.join(field.keys)}"
         if key == field.name:
             return field.name, f"is written with its unit; allowed: {', '.join(field.keys)}"
-    of = {key: one.name for one in fields.values() for key in one.keys}
+    of = {key: field.name for field in fields.values() for key in field.keys}
     guess = nearest(key, [*also, *of]).partition("allowed: ")[0]
-    usual = ", ".join([*also, *(one.keys[0] for one in fields.values())])
+    usual = ", ".join([*also, *(field.keys[0] for field in fields.values())])
     near = get_close_matches(key[:80], of, 1)
     return of[near[0]] if near else key, f"unknown key; {guess}allowed: {usual or 'none'}"
-
-
-def _says_more(shape: Shape, item: Mapping[str, Any]) -> bool:
-    """Whether a table is that of a number; one of another kind, which may be there, says its type."""
-    several = options(shape)
-    tables = any("group" in one or one.get("type") == "object" for one in several)
-    return any(map(is_number, several)) and (not tables or ("value" in item and "type" not in item))
 
 
 def _is_of_kind(shape: Shape, item: Any) -> bool:
@@ -343,14 +316,6 @@ def _is_of_kind(shape: Shape, item: Any) -> bool:
     if isinstance(item, list):
         return shape.get("type") == "array"
     return is_number(shape) if _is_number(item) else isinstance(item, str) and shape == {"type": "string"}
-
-
-def _is_for(shape: Shape, item: Any, unit: Unit | None, ending: str) -> bool:
-    """Whether an item is of a kind of a shape, so that a check of a class has refused it."""
-    fitting = [one for one in options(shape) if _is_of_kind(one, item)]
-    if _is_number(item):
-        return any(_is_within(_number_in_si(item, unit, ending), one) for one in fitting)
-    return bool(fitting)
 
 
 def _is_number(item: Any) -> bool:
@@ -382,10 +347,3 @@ def _number_in_si(item: int | float | Decimal, unit: Unit | None, ending: str) -
     if written.adjusted() < SMALLEST_EXPONENT:
         return 0.0
     return float(written) if unit is None else unit.read(written, ending)
-
-
-def _is_within(number: float, shape: Shape) -> bool:
-    """Whether a number is one of a shape."""
-    if not abs(number) <= LARGEST or (shape["type"] == "integer" and number != math.floor(number)):
-        return False
-    return all(fits(number, shape[name]) for name, (*_, fits) in BOUNDS.items() if name in shape)

@@ -2,7 +2,6 @@
 
 import inspect
 import re
-from collections.abc import Mapping
 from decimal import Decimal
 from itertools import combinations
 from typing import Any
@@ -35,13 +34,12 @@ NUMBER = re.compile(r"(?<![\w^])\d[\d.e-]*")
 class Schemas:
     """Schemas of values; those of classes are kept once, in `defs`, and referred to.
 
-    sourced: whether every number may be a table with its range and source. besides: for a class, schemas of
-    further ways to write its values.
+    Every number may be a table with its range and source. besides: for a class, schemas of further ways to
+    write its values.
     """
 
-    def __init__(self, sourced: bool = False) -> None:
-        self.defs: Table = {SourcedNumber.__name__: _sourced()} if sourced else {}
-        self.sourced = sourced
+    def __init__(self) -> None:
+        self.defs: Table = {SourcedNumber.__name__: _sourced()}
         self.besides: dict[type[Value], list[Table]] = {}
 
     def value(self, cls: type[Value]) -> Table:
@@ -52,9 +50,9 @@ class Schemas:
             self.defs[name] = self.table(cls)
         return {"$ref": f"#/$defs/{name}"}
 
-    def table(self, cls: type[Value], all_optional: bool = False) -> Table:
-        """The schema of a value's table; all_optional: what is missing comes from elsewhere."""
-        properties: Table = {"type": {"const": cls.__name__}}
+    def table(self, cls: type[Value], typed: bool = True, all_optional: bool = False) -> Table:
+        """The schema of a value's table; typed: with its `type`; all_optional: no key is needed."""
+        properties: Table = {"type": {"const": cls.__name__}} if typed else {}
         rules: list[Table] = []
         required: list[str] = []
         for field in field_shapes(cls).values():
@@ -113,8 +111,6 @@ class Schemas:
             return found
         bounds = {name: _plain(scaled(shape[name], unit, ending)) for name in BOUNDS if name in shape}
         plain = {**found, **bounds}
-        if not self.sourced:
-            return plain
         table: Table = {"$ref": f"#/$defs/{SourcedNumber.__name__}"}
         if bounds:
             table = {"allOf": [table, {"properties": dict.fromkeys(("value", "from", "to"), bounds)}]}
@@ -187,10 +183,3 @@ def _default(field: FieldShape, ending: str) -> Any:
 def _plain(number: Decimal) -> int | float:
     """A number as JSON has it."""
     return int(number) if number == number.to_integral_value() and abs(number) < 10**15 else float(number)
-
-
-def without(table: Mapping[str, Any], *names: str) -> Table:
-    """A schema of a table that lacks some of its keys."""
-    properties = {key: one for key, one in table["properties"].items() if key not in names}
-    required = [key for key in table.get("required", []) if key not in names]
-    return {**table, "properties": properties, **({"required": required} if "required" in table else {})}

@@ -6,10 +6,9 @@ that are asked for when it is read.
 """
 
 import inspect
-import operator
 import re
 import typing
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import MISSING, dataclass
 from dataclasses import fields as dataclass_fields
 from decimal import Decimal
@@ -22,18 +21,18 @@ from pydantic.json_schema import GenerateJsonSchema
 from pydantic_core import core_schema
 from typing_extensions import Never
 
-from support_exudyn.files.toml.faults import nearest, quoted
+from support_exudyn.files.toml.faults import quoted
+from user_forces.values.names import nearest
 from user_forces.values.units import Unit
-from user_forces.values.value import GROUP, InputError, Value, is_kind_of, known_classes
+from user_forces.values.value import GROUP, InputError, Value, is_kind_of, kinds_of
 
 Shape = Mapping[str, Any]
 NAMES = "names"  # in the schemas of fields: the names of a text
-# keywords of JSON Schema, each with pydantic's name, its sign and what fits it
-BOUNDS: dict[str, tuple[str, str, Callable[[float, float], bool]]] = {
-    "exclusiveMinimum": ("gt", ">", operator.gt),
-    "minimum": ("ge", ">=", operator.ge),
-    "exclusiveMaximum": ("lt", "<", operator.lt),
-    "maximum": ("le", "<=", operator.le),
+BOUNDS = {  # keywords of JSON Schema, each with pydantic's name and its sign
+    "exclusiveMinimum": ("gt", ">"),
+    "minimum": ("ge", ">="),
+    "exclusiveMaximum": ("lt", "<"),
+    "maximum": ("le", "<="),
 }
 SOURCED_KEYS = {  # of a number that is a table, where numbers may be
     "value": "what is reckoned with",
@@ -41,7 +40,6 @@ SOURCED_KEYS = {  # of a number that is a table, where numbers may be
     "to": "the largest that it may be, in the same unit",
     "source": "where it comes from, and what the range rests on",
 }
-ENTRY = re.compile(r"^(?P<names>\w+(?:, \w+)*): (?P<text>.*)$")
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,12 +48,12 @@ class Names:
 
     known: the names, each with what it means; of a table of tables, a mapping of names in place of the meaning;
     or a function that gives the names of a text, which later classes may add to. required: keys that a table
-    must have. instead: what to do with a name that is none of them, in words.
+    must have. instead: advice on any other name.
     """
 
     known: Mapping[str, Any] | Callable[[], Sequence[str]]
+    instead: str = ""
     required: tuple[str, ...] = ()
-    instead: Callable[[str], str] | None = None
 
     @property
     def options(self) -> tuple[str, ...]:
@@ -79,7 +77,7 @@ class Names:
 def _named(
     source: Any, known: Mapping[str, Any], required: tuple[str, ...], handler: GetCoreSchemaHandler
 ) -> Any:
-    """Schema for pydantic of a mapping whose keys are known, and so of those in it where names hold names."""
+    """Pydantic's schema of a mapping with known keys, whose items may be such mappings."""
     item = typing.get_args(source)[1]
     inside = {
         name: core_schema.typed_dict_field(
@@ -107,13 +105,13 @@ class GroupShape:
     @property
     def kinds(self) -> dict[str, type[Value]]:
         """The classes of which values can be made, by name."""
-        known = known_classes().items()
-        return {name: kind for name, kind in sorted(known) if issubclass(kind, self.bases) and _is_kind(kind)}
+        kinds = {name: kind for base in self.bases for name, kind in kinds_of(base).items()}
+        return dict(sorted(kinds.items()))
 
     @property
     def usual(self) -> type[Value] | None:
         """The class that is meant where a table says none; None if it has to."""
-        if len(self.bases) == 1 and _is_kind(self.bases[0]):
+        if not self.says_type:
             return self.bases[0]
         kinds = list(self.kinds.values())
         return kinds[0] if len(kinds) == 1 else None
@@ -121,11 +119,7 @@ class GroupShape:
     @property
     def says_type(self) -> bool:
         """Whether tables that are written say their type: where there is a choice, or may be one some day."""
-        return len(self.bases) > 1 or not _is_kind(self.bases[0])
-
-
-def _is_kind(cls: type) -> bool:
-    return is_kind_of(cls, Value)
+        return len(self.bases) > 1 or not is_kind_of(self.bases[0], Value)
 
 
 @dataclass(frozen=True)
@@ -228,7 +222,7 @@ class _Shapes(GenerateJsonSchema):
     def generate_inner(self, schema: Any) -> dict[str, Any]:
         """The shape of what a schema of pydantic takes, its bounds by the words of JSON Schema."""
         shape = super().generate_inner(schema)
-        for word, (name, *_) in BOUNDS.items():
+        for word, (name, _) in BOUNDS.items():
             if name in shape:
                 shape[word] = float(shape.pop(name))
         return shape
@@ -317,7 +311,7 @@ def allowed(shape: Shape, unit: Unit | None = None, ending: str = "") -> str:
         case {"names": names}:
             return ", ".join(map(quoted, names.options))
         case {"type": "number" | "integer" as kind}:
-            limits = [(sign, shape[name]) for name, (_, sign, _) in BOUNDS.items() if name in shape]
+            limits = [(sign, shape[name]) for name, (_, sign) in BOUNDS.items() if name in shape]
             bounds = " and ".join(f"{sign} {scaled(limit, unit, ending)}" for sign, limit in limits)
             return bounds if bounds and kind == "number" else f"a {WHOLE[kind]} {bounds}".strip()
         case {"prefixItems": items}:
@@ -339,30 +333,15 @@ WHOLE = {"number": "number", "integer": "whole number"}
 
 @cache
 def help_texts(cls: type) -> Mapping[str, str]:
-    """The help on the fields of a class, from its docstring and those of its bases."""
+    """The help on the fields of a class, from the `Arguments:` of its docstring and of its bases'."""
+    names = "|".join(each.name for each in dataclass_fields(cls))
+    entry = re.compile(rf"(?:^|\n|(?<=\.) ) *((?:{names})(?:, (?:{names}))*): ")
     found: dict[str, str] = {}
-    for one in reversed(cls.__mro__):
-        if one.__doc__ and "Arguments:" in one.__doc__:
-            found |= dict(_entries(inspect.cleandoc(one.__doc__).partition("Arguments:")[2]))
-    names = "|".join(one.name for one in dataclass_fields(cls))
-    for text in list(found.values()):  # several in a line: `radius: [m], > 0. mass: [kg], > 0.`
-        first, *more = re.split(rf"(?<=\.) (?=(?:{names}): )", text)
-        found = {name: first if one == text else one for name, one in found.items()}
-        found |= {name: one for name, _, one in (item.partition(": ") for item in more)}
+    for each in reversed(cls.__mro__):
+        section = inspect.cleandoc(each.__doc__ or "").partition("Arguments:")[2]
+        section = re.split(r"\n(?=\S)", section)[0]  # up to the next section
+        section = re.sub(r"(\n\s*)?\n {5,}", " ", section).strip()
+        texts = iter(entry.split(section)[1:])
+        for named, text in zip(texts, texts, strict=True):
+            found |= dict.fromkeys(named.split(", "), text.partition("\n")[0].strip())
     return found
-
-
-def _entries(text: str) -> Iterator[tuple[str, str]]:
-    """Names and texts of an indented list `name: text`, one text over several lines."""
-    names: list[str] = []
-    words: list[str] = []
-    for line in [*text.splitlines()[1:], "end"]:
-        if line.strip() and not line.startswith("    "):  # a new section
-            break
-        if line.startswith("     ") or not line.strip():
-            words.append(line.strip())
-            continue
-        yield from ((name, " ".join(words).strip()) for name in names)
-        entry = ENTRY.match(line.strip())
-        names, words = (entry["names"].split(", "), [entry["text"]]) if entry else ([], [])
-    yield from ((name, " ".join(words).strip()) for name in names)

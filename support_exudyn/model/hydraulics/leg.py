@@ -235,7 +235,7 @@ class OilColumn(HydraulicLeg):
         bulk_modulus: B of the oil or emulsion [Pa], > 0; 1.96e9 by the published stiffness of four shields.
     """
 
-    _removed: ClassVar[Mapping[str, str]] = {
+    removed: ClassVar[Mapping[str, str]] = {
         "damping_time": "allowed: a line, whose resistance damps the column: its volume, nominal_flow and "
         "nominal_drop"
     }

@@ -21,7 +21,6 @@ from scipy import ndimage
 from support_exudyn.files.series.named_series import Progress, SeriesFile, silent
 from support_exudyn.files.series.own_runs import is_run
 from support_exudyn.files.series.read import read_series
-from support_exudyn.files.toml.faults import nearest
 from support_exudyn.postprocessing.comparing.compared_channel import ComparedColumn
 from support_exudyn.postprocessing.comparing.mapping import CompareFile, MappedFile
 from support_exudyn.postprocessing.figures.channels import error_over_time
@@ -30,6 +29,7 @@ from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.recorded_run import RecordedRun
 from support_exudyn.simulation.reported_numbers import ROUNDING, left_by_newton
 from support_exudyn.simulation.result import Result
+from user_forces.values.names import nearest
 from user_forces.values.value import InputError
 
 Values = npt.NDArray[np.float64]

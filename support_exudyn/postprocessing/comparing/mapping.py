@@ -13,11 +13,12 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 
 from support_exudyn.files.series.units import is_unit, scaled
-from support_exudyn.files.toml.faults import Faults, Place, nearest
+from support_exudyn.files.toml.faults import Faults, Place
 from support_exudyn.files.toml.reading import Reader, read_value
 from support_exudyn.files.toml.text import load_toml
 from support_exudyn.files.whole_file import missing_file
 from support_exudyn.postprocessing.figures.selection import is_called
+from user_forces.values.names import nearest
 from user_forces.values.units import Hertz, Seconds
 from user_forces.values.value import InputError, Positive, Real, Value, short, value
 

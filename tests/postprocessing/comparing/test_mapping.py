@@ -124,7 +124,7 @@ def test_every_part_of_a_mapping_counts(
 @pytest.mark.parametrize(
     ("column", "said"),
     [
-        ("Canopy Y", "'Canopy Y' for tip.x; did you mean Canopy X"),
+        ("Canopy Y", "'Canopy Y' for tip.x; did you mean 'Canopy X'"),
         ("Canopy X", r"tip.x: is in m in .*, and in no unit in .*units\] \"Canopy X\""),
     ],
 )
