@@ -25,7 +25,7 @@ from user_forces.values.value import InputError
 MESHES = Sampling(frames_per_second=25.0)
 MOST_VALUES = 500_000_000  # in the HDF5 file of an XDMF; 4 GB before compression
 COMPRESSION: dict[str, Any] = {"compression": "gzip", "compression_opts": 4, "shuffle": True}
-STEP, STORE = r'file="((?:machine|pins)_\d{5,}\.vtu)"', r">([^<>:]+_mesh\.h5):/"  # in the indexes
+STEP = re.compile(r"(machine|pins)(\.pvd|_\d{5,}\.vtu)")  # files of an earlier export
 
 
 def to_xdmf(
@@ -38,9 +38,9 @@ def to_xdmf(
         rise.xdmf       the machine: a triangle mesh whose points move. Data of points: velocity_m_s, and
                         displacement_m since the first step. Of triangles: body and role.
         rise_pins.xdmf  the pins as points: force_N of the first body on the second, force_magnitude_N, depth_m
-                        (negative: gap), slip_m_s, pin, loose (1 or 0). Of an ideal pin depth and slip are NaN.
-                        A clearance pin is at its journal's centre. In the plane a pin stands for those of a
-                        pair.
+                        (negative: gap), slip_m_s, pin, with_clearance (1 or 0). Of an ideal pin depth and slip
+                        are NaN. A clearance pin is at its journal's centre. In the plane a pin stands for
+                        those of a pair.
         rise_mesh.h5    the numbers of both, to which they refer by this name
         rise_names.csv  what the numbers body, role and pin stand for
 
@@ -76,9 +76,7 @@ def to_xdmf(
         )
     store, table = f"{path.stem}_mesh.h5", f"{path.stem}_names.csv"
     indexes = [f"{path.stem}.xdmf", f"{path.stem}_pins.xdmf"][: len(series)]
-    pins = f"{path.stem}_pins.xdmf"  # which an earlier export of another machine may have left
-    stale = [pins] if store in _named_in(path.parent / pins, STORE) else []
-    with whole_set(path.parent, (store, table, *indexes), stale) as folder:
+    with whole_set(path.parent, (store, table, *indexes)) as folder:
         # made in memory: on a full disk HDF5 would end the whole process
         with h5py.File(store, "w", driver="core", backing_store=False) as file:
             writers = [MovingMeshWriter(mesh, file, store) for mesh in series]
@@ -141,7 +139,7 @@ def to_vtu(
     """The machine and its pins as a VTU file per step, with PVD files of their times, for ParaView.
 
     In the folder: machine.pvd and pins.pvd, which ParaView opens; machine_00000.vtu and so on; names.csv.
-    Fields are those of `to_xdmf`. Steps of an earlier export are replaced, and removed if they were more; other
+    Fields are those of `to_xdmf`. Those of an earlier export are replaced, and removed if they were more; other
     files stay.
 
     Arguments and errors as with `to_xdmf`. Returns the paths of the PVD files, then of the table and the steps.
@@ -152,9 +150,7 @@ def to_vtu(
     steps = {mesh.name: [f"{mesh.name}_{step:05d}.vtu" for step in range(len(records))] for mesh in series}
     files = ["names.csv", *(name for of_mesh in steps.values() for name in of_mesh)]
     indexes = [f"{mesh.name}.pvd" for mesh in series]
-    earlier = {name: _named_in(folder / name, STEP) for name in ("machine.pvd", "pins.pvd")}
-    stale = [name for name, found in earlier.items() if found]
-    stale += [one for found in earlier.values() for one in found]
+    stale = [path.name for path in folder.glob("*") if STEP.fullmatch(path.name)]
     with whole_set(folder, [*files, *indexes], stale) as temporary:
         for step, record in enumerate(records):
             for mesh in series:
@@ -173,14 +169,6 @@ def to_vtu(
                 ElementTree.SubElement(collection, "DataSet", timestep=repr(time), part="0", file=file)
             _write_xml(temporary / f"{mesh.name}.pvd", root)
     return tuple(folder / name for name in (*indexes, *files))
-
-
-def _named_in(index: Path, pattern: str) -> list[str]:
-    """The files of an earlier export, by the index that names them; none if there is no such index."""
-    try:
-        return re.findall(pattern, index.read_text(encoding="utf-8", errors="replace"))
-    except OSError:
-        return []
 
 
 def _write_xml(path: Path, root: ElementTree.Element) -> None:

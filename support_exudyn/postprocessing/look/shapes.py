@@ -6,7 +6,6 @@ trimesh's.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from enum import Enum
@@ -14,7 +13,7 @@ from enum import Enum
 import numpy as np
 from shapely.geometry import LineString, MultiPoint, Point, Polygon
 from trimesh import Trimesh
-from trimesh.creation import cylinder, extrude_polygon, revolve
+from trimesh.creation import cylinder, extrude_polygon, icosphere
 from trimesh.util import concatenate
 
 from user_forces.values.value import Vector2, Vector3
@@ -156,17 +155,6 @@ def axle(first: float, last: float, radius: float) -> Trimesh:
     return tube((first, 0.0, 0.0), (last, 0.0, 0.0), radius)
 
 
-def lathed(profile: Sequence[tuple[float, float]]) -> Trimesh:
-    """A solid of revolution about the x axis, by its outline: places along the axis and radii [m].
-
-    The places increase; the first and the last radius are 0, by which it is closed.
-    """
-    places, radii = np.array(profile).T
-    mesh: Trimesh = revolve(np.column_stack([radii, places]), sections=SECTIONS)
-    mesh.apply_transform(np.eye(4)[[2, 0, 1, 3]])  # z becomes x
-    return mesh
-
-
 def together(meshes: Iterable[Trimesh]) -> Trimesh:
     """Several surfaces as one."""
     mesh = concatenate(list(meshes))
@@ -182,7 +170,6 @@ INSIDE = (
 SHORTEST_CYLINDER = 0.68  # of the shortest length
 BALL = 0.95  # radius of the ends, of the cylinder's
 ROD = 0.66  # radius of the rod, of the cylinder's
-ARC = 7  # points of the outline of a ball
 
 
 def lengths(shortest: float, longest: float) -> tuple[float, float]:
@@ -200,25 +187,8 @@ def lengths(shortest: float, longest: float) -> tuple[float, float]:
 
 
 def cylinder_and_rod(shortest: float, longest: float, radius: float) -> tuple[Trimesh, Trimesh]:
-    """Surfaces of both, as `Strut.shapes` takes them; radius: of the cylinder [m]."""
+    """Surfaces of both, with balls at their ends, as `Strut.shapes` takes them; radius: of the cylinder [m]."""
     cylinder, rod = lengths(shortest, longest)
-    collar, edge = min(0.7 * radius, 0.2 * cylinder), 0.12 * radius
-    thick, thin = 1.12 * radius, ROD * radius
-    outline = [
-        *_ball(BALL * radius, math.pi, 0.5 * math.pi),
-        (edge, radius),
-        (cylinder - collar - edge, radius),
-        (cylinder - collar, thick),
-        (cylinder - edge, thick),
-        (cylinder, thick - edge),
-        (cylinder, 0.0),
-    ]
-    reached = math.pi - math.asin(thin / (BALL * radius))
-    shaft = [(-rod, 0.0), (-rod, thin), *_ball(BALL * radius, reached, 0.0)]
-    return lathed(outline), lathed(shaft)
-
-
-def _ball(radius: float, first: float, last: float) -> list[tuple[float, float]]:
-    """The outline of a ball about the origin between two angles from the axis [rad]."""
-    angles = np.linspace(first, last, ARC + 1)
-    return [(radius * math.cos(a), abs(round(math.sin(a), 12)) * radius) for a in angles]
+    ball, collar = icosphere(2, BALL * radius), min(0.7 * radius, 0.2 * cylinder)
+    barrel = axle(0.0, cylinder - collar, radius), axle(cylinder - collar, cylinder, 1.12 * radius)
+    return together([ball, *barrel]), together([ball, axle(-rod, 0.0, ROD * radius)])
