@@ -10,7 +10,6 @@ import json
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
-from functools import cache
 from itertools import pairwise
 from pathlib import Path
 from typing import Any, Literal
@@ -21,7 +20,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from pydantic import ConfigDict, TypeAdapter, ValidationError
+from pydantic import TypeAdapter, ValidationError
 
 from support_exudyn.files.whole_file import contents, whole_file
 from support_exudyn.mechanics.trajectory import Series
@@ -42,8 +41,6 @@ class LiveCurve:
     Of dash "points" each point is a mark, and none is joined with the next.
     """
 
-    __pydantic_config__ = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
-
     label: str
     x: tuple[float, ...]
     y: tuple[float | None, ...]
@@ -51,16 +48,10 @@ class LiveCurve:
     dash: Dash = "solid"
     width: float = 1.0
 
-    def __post_init__(self) -> None:
-        if len(self.x) != len(self.y) or not self.x:
-            raise ValueError(f"{len(self.x)} x and {len(self.y)} y; allowed: as many of both, at least one")
-
 
 @dataclass(frozen=True)
 class LivePanel:
     """A panel: label of its y axis with the unit in brackets, and its curves, the undermost first."""
-
-    __pydantic_config__ = ConfigDict(extra="forbid", strict=True)
 
     label: str
     curves: tuple[LiveCurve, ...]
@@ -70,16 +61,8 @@ class LivePanel:
 class LiveFigure:
     """Panels one below the other over the same x axis; x_label: its label with the unit in brackets."""
 
-    __pydantic_config__ = ConfigDict(extra="forbid", strict=True)
-
     x_label: str
     panels: tuple[LivePanel, ...]
-
-    def __post_init__(self) -> None:
-        if not self.panels or not all(panel.curves for panel in self.panels):
-            raise ValueError(
-                "nothing is drawn in it; allowed: at least one panel, each with at least one curve"
-            )
 
     def save(self, path: Path) -> None:
         """Write it as JSON, whole or not at all."""
@@ -91,16 +74,9 @@ class LiveFigure:
     def load(path: Path) -> LiveFigure:
         """Read it back. Raises InputError that names the file and its fault; OSError if it cannot."""
         try:
-            return _reader().validate_json(contents(path, LARGEST_FILE))
+            return TypeAdapter(LiveFigure).validate_json(contents(path, LARGEST_FILE))
         except ValidationError as error:
-            found = [(".".join(map(str, item["loc"])), item["msg"]) for item in error.errors()[:4]]
-            said = "; ".join(f"{place}: {message}" if place else message for place, message in found)
-            raise InputError(f"{path}: {said}") from None
-
-
-@cache
-def _reader() -> TypeAdapter[LiveFigure]:
-    return TypeAdapter(LiveFigure)
+            raise InputError(f"{path}: no live figure: {error.errors()[0]['msg']}") from None
 
 
 # --- from a drawing ---
