@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import sys
 from pathlib import Path
 from typing import Any
@@ -92,91 +93,104 @@ def test_every_version_of_matlab_is_read(tmp_path: Path, name: str) -> None:
         assert found.series["run.x"].time == pytest.approx(TIME)
 
 
-def test_what_simulink_saves_is_read(tmp_path: Path) -> None:
-    found = read(tmp_path, cases.simulink(), "a.mat")
-    expected = {
-        "yout.1": TIME, "yout.2": TIME**2, "scope.Force": TIME, "scope.signal2.1": TIME,
-        "scope.signal2.2": 2 * TIME, "simout.x": 3 * TIME,
-    }  # fmt: skip
-    assert {name: one.values.tolist() for name, one in found.series.items()} == {
-        name: one.tolist() for name, one in expected.items()
-    }
-    assert (found.series["scope.Force"].unit, found.series["simout.x"].unit) == ("kN", "mm")
-    assert all(one.time.tolist() == TIME.tolist() for one in found.series.values())
-
-
-def test_a_structure_with_time_of_version_73_is_read(tmp_path: Path) -> None:
+def structure_with_time_of_73() -> bytes:
+    """Simulink's structure with two signals, and a timeseries, as version 7.3 keeps them."""
     with h5py.File("made", "w", driver="core", backing_store=False, userblock_size=512) as file:
         file["simout/time"] = TIME.reshape(1, -1)
-        kept = [file.create_dataset(f"#refs#/{n}", data=n * TIME.reshape(1, -1)) for n in (1, 2)]
-        texts = [
-            file.create_dataset(f"#refs#/t{n}", data=np.array([[ord(c)] for c in f"s{n}_kN"], "u2"))
-            for n in (1, 2)
-        ]
-        for one in texts:
-            one.attrs["MATLAB_class"] = np.bytes_("char")
-        for key, items in (("values", kept), ("label", texts)):
-            refs = [[one.ref] for one in items]
+        for key in ("values", "label"):
+            kept = []
+            for n in (1, 2):
+                data = (
+                    n * TIME.reshape(1, -1)
+                    if key == "values"
+                    else np.array([[ord(c)] for c in f"s{n}_kN"], "u2")
+                )
+                kept.append(file.create_dataset(f"#refs#/{key}{n}", data=data))
+                kept[-1].attrs["MATLAB_class"] = np.bytes_("double" if key == "values" else "char")
+            refs = [[one.ref] for one in kept]
             file.create_dataset(f"simout/signals/{key}", data=refs, dtype=h5py.ref_dtype)
         stamped = file.create_dataset("ts", data=np.zeros((1, 6), "u4"))
         stamped.attrs["MATLAB_class"], stamped.attrs["MATLAB_object_decode"] = np.bytes_("timeseries"), 3
         file.flush()
         image = file.id.get_file_image()
-    whole = b"MATLAB 7.3 MAT-file, Platform: GLNXA64".ljust(124) + b"\x00\x02IM" + bytes(384) + image
-    found = read(tmp_path, whole, "a.mat")
-    assert {name: (one.unit, one.values[-1]) for name, one in found.series.items()} == {
-        "simout.s1": ("kN", 1.0), "simout.s2": ("kN", 2.0),
-    }  # fmt: skip
-    assert found.notes == ("Objects of MATLAB, which only MATLAB reads, are left out: ts (timeseries).",)
+    return b"MATLAB 7.3 MAT-file, Platform: GLNXA64".ljust(124) + b"\x00\x02IM" + bytes(384) + image
 
 
-@pytest.mark.parametrize("form", ["binTrans", "binNormal"])
-def test_what_dymola_and_openmodelica_write_is_read(tmp_path: Path, form: str) -> None:
-    found = read(tmp_path, cases.modelica(form), "a.mat").series
-    assert {name: (one.unit, one.time.size) for name, one in found.items()} == {
-        "m": ("kg", 2), "J.phi": ("rad", 11), "back": (None, 11), "J.w": ("rad/s", 11),
-    }  # fmt: skip
-    assert found["m"].values.tolist() == [7.0, 7.0]
-    assert found["back"].values.tolist() == (-(TIME**2)).tolist()
-    assert found["J.w"].time.tolist() == TIME.tolist()
+def at_rate(**extra: float) -> bytes:
+    """A vector of MATLAB without times."""
+    file = io.BytesIO()
+    scipy.io.savemat(file, {"x_mm": TIME, **extra})
+    return file.getvalue()
 
 
-def test_vectors_of_matlab_at_a_rate_are_read(tmp_path: Path) -> None:
-    for extra, asked in (({"Fs": 100.0}, {}), ({"dt": 0.01}, {}), ({}, {"rate": 100.0})):
-        scipy.io.savemat(tmp_path / "a.mat", {"x_mm": FORCE, **extra})
-        found = read_series(tmp_path / "a.mat", **asked)
-        assert found.series["x"].time == pytest.approx(0.01 * np.arange(11), abs=1e-15)
+def of_arrow(write: Any) -> bytes:
+    """A table of Arrow with stamps."""
+    sink = pa.BufferOutputStream()
+    stamps = np.array(["2023-05-04T06:00:00", "2023-05-04T06:00:00.25"], "M8[ns]")
+    write(pa.table({"when": stamps, "x_mm": [1.0, 2.0], "day": ["a", "b"]}), sink)
+    return bytes(sink.getvalue())
 
 
-# --- LabVIEW ---
+SHORT = np.array([0.0, 1e-3])
+LATER = np.array([0.0, 1e-3, 2.0, 2.001])
+LABVIEW = {"Untitled": ("volts", SHORT, [0.5, 0.6]), "Force": ("kN", SHORT, [1.5, 1.6])}
+SEGMENTS = {"Untitled": ("volts", LATER, [0.5, 0.6] * 2), "Force": ("kN", LATER, [1.5, 1.6] * 2)}
+COMMA = "LabVIEW Measurement\nSeparator,Comma\nX_Columns,One\n***End_of_Header***\n\nX_Value,Untitled,Comment\n"
+MODELICA = {
+    "m": ("kg", [0, 1], [7, 7]), "J.phi": ("rad", TIME, TIME**2), "back": (None, TIME, -(TIME**2)),
+    "J.w": ("rad/s", TIME, 3 * TIME),
+}  # fmt: skip
+SIMULINK = {
+    "yout.1": (None, TIME, TIME), "yout.2": (None, TIME, TIME**2), "scope.Force": ("kN", TIME, TIME),
+    "scope.signal2.1": (None, TIME, TIME), "scope.signal2.2": (None, TIME, 2 * TIME),
+    "simout.x": ("mm", TIME, 3 * TIME),
+}  # fmt: skip
+X = {"x": ("mm", [0.0, 1.0], [1.0, np.nan])}
+STAMPED = {"x": ("mm", [0.0, 0.25], [1.0, 2.0])}
+LEFT = "Columns that are no numbers are left out: 'day'."
 
 
-def test_every_kind_of_labviews_files_is_read(tmp_path: Path) -> None:
-    expected = {"Untitled": ("volts", [0.0, 1e-3], [0.5, 0.6]), "Force": ("kN", [0.0, 1e-3], [1.5, 1.6])}
-    later = {name: (unit, [*t, 2.0, 2.001], 2 * v) for name, (unit, t, v) in expected.items()}
-    multi = expected | {"Force": ("kN", [0.0, 2e-3], [1.5, 1.6])}
-    comma = (
-        "LabVIEW Measurement\nSeparator,Comma\nX_Columns,One\n***End_of_Header***\n\nX_Value,Untitled,Comment\n"
-    )
-    for text, wanted in (
-        (cases.labview(), expected),
-        (cases.labview("No"), expected),
-        (cases.labview("Multi"), multi),
-        (cases.labview("One", segments=2), later),
-        (cases.labview("No", segments=2), later),
-        (f"{comma}0,5,\n0.5,6,\n0,7,\n0.5,8,\n", {"Untitled": (None, [0, 0.5, 1.0, 1.5], [5, 6, 7, 8])}),
-    ):
-        found = read(tmp_path, text.encode(), "a.lvm")
-        assert {name: one.unit for name, one in found.series.items()} == {
-            name: one[0] for name, one in wanted.items()
-        }
-        for name, (_, time, values) in wanted.items():
-            assert found.series[name].time == pytest.approx(time, abs=1e-9)
-            assert found.series[name].values.tolist() == values
-    assert found.notes == ("Times of Untitled begin again 1 times; each time they go on after one interval.",)
+@pytest.mark.parametrize(
+    ("data", "asked", "expected", "note"),
+    [
+        (cases.simulink(), {}, SIMULINK, ""),
+        (structure_with_time_of_73(), {}, {f"simout.s{n}": ("kN", TIME, n * TIME) for n in (1, 2)},
+         "Objects of MATLAB, which only MATLAB reads, are left out: ts (timeseries)."),
+        (cases.modelica("binTrans"), {}, MODELICA, ""),
+        (cases.modelica("binNormal"), {}, MODELICA, ""),
+        (at_rate(Fs=10.0), {}, {"x": ("mm", TIME, TIME)}, ""),
+        (at_rate(dt=0.1), {}, {"x": ("mm", TIME, TIME)}, ""),
+        (at_rate(), {"rate": 10.0}, {"x": ("mm", TIME, TIME)}, ""),
+        (cases.labview(), {}, LABVIEW, ""),
+        (cases.labview("No"), {}, LABVIEW, ""),
+        (cases.labview("Multi"), {}, LABVIEW | {"Force": ("kN", 2 * SHORT, [1.5, 1.6])}, ""),
+        (cases.labview("One", segments=2), {}, SEGMENTS, "The file has 2 segments, which follow each other."),
+        (cases.labview("No", segments=2), {}, SEGMENTS, ""),
+        (f"{COMMA}0,5,\n0.5,6,\n0,7,\n0.5,8,\n", {}, {"Untitled": (None, [0, 0.5, 1, 1.5], [5, 6, 7, 8])},
+         "Times of Untitled begin again 1 times; each time they go on after one interval."),
+        ('[{"time_s": 0, "x_mm": 1}, {"time_s": 1, "x_mm": null}]', {}, X, ""),
+        ('{"Time": ["2023-05-04T06:00:00Z", "2023-05-04T06:00:01Z"], "x [mm]": [1, null]}', {}, X, ""),
+        ('{"data": [{"t": 1683180000, "x_mm": 1.0}, {"t": 1683180001}]}', {}, X, ""),
+        (of_arrow(feather.write_feather), {}, STAMPED, LEFT),
+        (of_arrow(parquet.write_table), {}, STAMPED, LEFT),
+        (cases.parquet_bytes(), {}, {"pin.force": ("kN", TIME, FORCE)},
+         "Columns that are no numbers are left out: 'said'."),
+    ],
+)  # fmt: skip
+def test_names_units_times_and_values_are_read(
+    tmp_path: Path, data: str | bytes, asked: dict[str, Any], expected: dict[str, Any], note: str
+) -> None:
+    found = read(tmp_path, data if isinstance(data, bytes) else data.encode(), **asked)
+    assert {name: one.unit for name, one in found.series.items()} == {
+        name: one[0] for name, one in expected.items()
+    }
+    for name, (_, time, values) in expected.items():
+        np.testing.assert_allclose(found.series[name].time, time, rtol=1e-12, atol=1e-9)
+        np.testing.assert_array_equal(found.series[name].values, values)
+    assert not note or note in found.notes
 
 
-# --- workbooks, Feather, JSON ---
+# --- workbooks ---
 
 
 def test_a_sheet_of_a_workbook_is_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -193,40 +207,6 @@ def test_a_sheet_of_a_workbook_is_read(tmp_path: Path, monkeypatch: pytest.Monke
         InputError, match=r"which openpyxl reads, .*allowed: pip install 'support-exudyn\[files\]'"
     ):
         read_series(tmp_path / "named.csv")
-
-
-@pytest.mark.parametrize(
-    "data",
-    [
-        b'[{"time_s": 0, "x_mm": 1}, {"time_s": 1, "x_mm": null}]',
-        b'{"Time": ["2023-05-04T06:00:00Z", "2023-05-04T06:00:01Z"], "x [mm]": [1, null]}',
-        b'{"data": [{"t": 1683180000, "x_mm": 1.0}, {"t": 1683180001}]}',
-    ],
-)
-def test_rows_and_columns_of_json_are_read(tmp_path: Path, data: bytes) -> None:
-    found = read(tmp_path, data).series["x"]
-    assert (found.unit, found.time.tolist()) == ("mm", [0.0, 1.0])
-    np.testing.assert_array_equal(found.values, [1.0, np.nan])
-
-
-def test_feather_and_parquet_have_times_as_stamps(tmp_path: Path) -> None:
-    stamps = np.array(["2023-05-04T06:00:00", "2023-05-04T06:00:00.25"], "M8[ns]")
-    table = pa.table({"when": stamps, "x_mm": [1.0, 2.0], "day": ["a", "b"]})
-    for write, name in ((feather.write_feather, "a.feather"), (parquet.write_table, "a.parquet")):
-        write(table, tmp_path / name)
-        found = read_series(tmp_path / name)
-        assert found.series["x"].time.tolist() == [0.0, 0.25]
-        assert found.notes[-1] == "Columns that are no numbers are left out: 'day'."
-
-
-# --- Parquet ---
-
-
-def test_parquet_has_units_in_titles_and_in_metadata(tmp_path: Path) -> None:
-    found = read(tmp_path, cases.parquet_bytes())
-    force = found.series["pin.force"]
-    assert (force.unit, force.values.tolist()) == ("kN", FORCE.tolist())
-    assert found.notes == ("Columns that are no numbers are left out: 'said'.",)
 
 
 # --- all formats ---
