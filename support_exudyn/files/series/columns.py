@@ -158,10 +158,10 @@ def _of_stamps(table: Table) -> tuple[Column, str] | None:
             )
     name, note = " ".join(one for one, _ in used), ""
     seconds: Numbers = np.sum([stamps.seconds for _, stamps in used], axis=0)
-    there = np.flatnonzero(np.isfinite(seconds)) if used else []
-    if not used or (used == dates[:1] and np.ptp(seconds[there]) == 0.0):
+    there = np.flatnonzero(np.isfinite(seconds))
+    if not used or not there.size or (not whole and not clocks and np.ptp(seconds[there]) == 0.0):
         return None
-    if used == clocks[:1]:
+    if not whole and not dates:
         period = clocks[0][1].period
         turns = np.cumsum(np.diff(seconds[there], prepend=seconds[there[:1]]) < -0.5 * period)
         seconds[there] += period * turns

@@ -126,8 +126,11 @@ def columns_of(
     def place(row: int) -> str:
         return f"{what} {rows[row][0]}"
 
-    frame = _parsed([line for _, line in rows], how)
-    if len(frame) != len(rows):
+    try:
+        frame = _parsed([line for _, line in rows], how)
+    except ValueError:  # of pandas
+        frame = None
+    if frame is None or len(frame) != len(rows):
         raise InputError(f"{path}: has quotes that are not closed; allowed: rows of a line each")
     found = []
     for n, ((name, unit), kind) in enumerate(zip(how.titles, how.kinds, strict=True)):
