@@ -36,7 +36,6 @@ GROUPS = ("ODE2", "ODE2_t", "ODE2_tt", "ODE1", "ODE1_t", "algebraic", "data")  #
 WRITTEN = re.compile(r"#number of written coordinates \[[\w, ]+\] = \[(\d{1,9}(?:,\d{1,9}){6})\]")
 SENSORS = re.compile(r"#number of sensor values = (\d{1,6})")
 MEASURED = re.compile(r"#OutputVariableType *= *(\w*)")
-LONGEST = 10_000  # letters or numbers in an item of a binary header
 
 
 def read_exudyn_text(path: Path, asked: Asked) -> SeriesFile:
@@ -102,10 +101,7 @@ class _Binary:
 
     def counted(self, kind: Any) -> Any:
         """Items behind their number."""
-        count = int(self.take(1, self.whole)[0])
-        if not 0 <= count <= LONGEST:
-            raise ValueError(f"{count} items")
-        return self.take(count, kind)
+        return self.take(int(self.take(1, self.whole)[0]), kind)
 
     def text(self) -> str:
         return bytes(self.counted("u1")).decode("utf-8", "replace")

@@ -31,7 +31,6 @@ from support_exudyn.files.whole_file import contents
 from user_forces.values.value import InputError, cleaned
 
 MAGIC, MAGIC_HDF5 = b"MATLAB 5.0 MAT-file", b"MATLAB 7.3 MAT-file"
-DEEPEST = 8  # structures in structures
 WIDEST = 1000  # columns of a matrix
 LETTERS = 300  # of an error of scipy or h5py that are shown
 DATA = ("data", "values", "signals")
@@ -81,7 +80,7 @@ def read_matlab(path: Path, asked: Asked) -> SeriesFile:
         why = cleaned(" ".join(f"{error or type(error).__name__}".split()))[:LETTERS]
         raise InputError(f"{path}: is no MATLAB file that can be read ({why}); allowed: a whole one") from None
     groups = list(_groups(path, tree, (), None)) or _of_rate(tree, asked.rate)
-    phrase = "; ".join(sorted({f"{name} ({kind})" for name, kind in _objects(tree, ())})[:4])
+    phrase = "; ".join(f"{name} ({one})" for name, one in tree.items() if isinstance(one, _Object))
     if not groups and phrase:
         raise InputError(
             f"{path}: has nothing but objects of MATLAB, which only MATLAB reads: {phrase}; allowed: "
@@ -220,15 +219,6 @@ def _words(matrix: Any, is_transposed: bool) -> list[str]:
 # --- what is in files, by scipy and h5py ---
 
 
-def _objects(tree: Tree, above: tuple[str, ...]) -> Iterator[tuple[str, str]]:
-    """Objects of MATLAB, by their names and classes."""
-    for name, item in tree.items():
-        if isinstance(item, _Object):
-            yield ".".join((*above, name)), str(item)
-        elif isinstance(item, Mapping):
-            yield from _objects(item, (*above, name))
-
-
 def _of_scipy(data: bytes) -> Tree:
     """The variables of a file of version 4 to 7."""
     from scipy.io.matlab import loadmat
@@ -251,19 +241,17 @@ def _plain(item: Any) -> Any:
 def _of_hdf5(data: bytes) -> Tree:
     """The variables of a file of version 7.3; nothing that stands in other files."""
     with h5py.File(h5py.h5f.open_file_image(data), "r") as file:
-        found = _of_item(file, file, 0)
+        found = _of_item(file, file)
     return found if isinstance(found, dict) else {"signals": found}
 
 
-def _of_item(file: Any, item: Any, depth: int) -> Any:
+def _of_item(file: Any, item: Any) -> Any:
     """An item of a file of version 7.3, which MATLAB keeps the other way round."""
-    if depth > DEEPEST:
-        raise ValueError(f"it has more than {DEEPEST} structures in structures")
     if "MATLAB_object_decode" in item.attrs:
         return _Object(bytes(item.attrs.get("MATLAB_class", b"object")).decode())
     if isinstance(item, h5py.Group):
         names = [one for one in item if isinstance(item.get(one, getlink=True), h5py.HardLink)]
-        found = {name: _of_item(file, item[name], depth + 1) for name in names if not name.startswith("#")}
+        found = {name: _of_item(file, item[name]) for name in names if not name.startswith("#")}
         sizes = {len(one) if isinstance(one, list) else -1 for one in found.values()}
         if len(sizes) != 1 or -1 in sizes:
             return found
@@ -271,7 +259,7 @@ def _of_item(file: Any, item: Any, depth: int) -> Any:
     if item.external or item.is_virtual or "MATLAB_empty" in item.attrs:
         return None
     if item.dtype == h5py.ref_dtype:
-        return [_of_item(file, file[one], depth + 1) for one in item[()].reshape(-1) if one]
+        return [_of_item(file, file[one]) for one in item[()].reshape(-1) if one]
     if item.attrs.get("MATLAB_class") in (b"char", np.bytes_(b"char")):
         return "".join(map(chr, item[()].T.reshape(-1, order="F")))
     return item[()].T if item.dtype.kind in "fiu" else None

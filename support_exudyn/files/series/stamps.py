@@ -13,7 +13,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
@@ -35,7 +35,16 @@ ZONE = r"(?: ?(?:Z|UTC|GMT|[+-][0-9]{2}(?::?[0-9]{2})?))?"
 STAMP = re.compile(
     rf"(?:{DATE})(?:[T_, -]+{CLOCK}{ZONE})?|{CLOCK}{ZONE}|[0-9]{{8}}[T_ -][0-9]{{6}}(?:[.,][0-9]+)?"
 )
-REWRITTEN = (  # to what pandas reads
+
+
+def _iso(found: re.Match[str]) -> str:
+    """A date with the name of its month as pandas reads it."""
+    day, name, year = found["d"], found["m"], found["y"]
+    small = name[:3].casefold()
+    return f"{year}-{MONTHS.index(small) + 1:02d}-{int(day):02d}" if small in MONTHS else name
+
+
+REWRITTEN: tuple[tuple[str, Any], ...] = (  # to what pandas reads
     (r"[年月]", "-"),
     (r"日| ?(?:UTC|GMT)$", ""),
     (r"(:[0-9]{1,2}:[0-9]{1,2})[,:]", r"\1."),
@@ -44,8 +53,9 @@ REWRITTEN = (  # to what pandas reads
     (r"[_, -]+(?=[0-9]{1,3}:|[0-9]{6}$)", " "),
     (r"^([0-9]{1,2}[-/.][0-9]{1,2}[-/.])([0-9]{2})(?![0-9])", r"\g<1>20\2"),
     (r"^([0-9]{1,2})\.([0-9]{1,2})\.([0-9]{4})", r"\3-\2-\1"),
+    (r"^(?P<d>[0-9]{1,2})[-. ]+(?P<m>[A-Za-z]+)[-. ,]+(?P<y>[0-9]{4})", _iso),
+    (r"^(?P<m>[A-Za-z]+)\.? (?P<d>[0-9]{1,2}),? (?P<y>[0-9]{4})", _iso),
 )
-NAMED = (r"^([0-9]{1,2})[-. ]+([A-Za-z]+)[-. ,]+([0-9]{4})", r"^([A-Za-z]+)\.? ([0-9]{1,2}),? ([0-9]{4})")
 SWAPPED = r"^([0-9]{1,2})[-/]([0-9]{1,2})[-/]([0-9]{4})"
 HALF = r"(上午|下午|[AaPp])\.?(?:[Mm]\.?)?"
 AS_BEFORE = "a date and time as before, or nothing"
@@ -81,10 +91,11 @@ def read_stamps(column: pd.Series) -> Stamps:
     half = half.str.lower().replace({"上午": "a", "下午": "p"})
     plain = text.str.replace(rf" ?{HALF}$|[上下]午 ?", "", regex=True)
     minutes = bool(plain.str.match(r"^[0-9]{1,3}:[0-9]{2}[.,]").any())
+    shapes = plain[~missing].str.replace("[0-9]", "1", regex=True).unique()  # few, by which a pattern is tried
     for pattern, new in REWRITTEN:
-        plain = plain.str.replace(pattern, new, regex=True)
-    plain = plain.str.replace(NAMED[0], lambda found: _iso(found[3], found[2], found[1]), regex=True)
-    plain = plain.str.replace(NAMED[1], lambda found: _iso(found[3], found[1], found[2]), regex=True)
+        if any(re.search(pattern, one) for one in shapes):
+            plain = plain.str.replace(pattern, new, regex=True)
+            shapes = [re.sub(pattern, new, one) for one in shapes]
     has_date = not bool(plain[~missing].str.match(r"[0-9]{1,3}:").all())
     period = HOUR if minutes else DAY if bool(plain.str.contains(":|[0-9]{8}[T ]").any()) else 0.0
     read = _moments if has_date else _clocks
@@ -101,12 +112,6 @@ def read_stamps(column: pd.Series) -> Stamps:
         row = int(np.flatnonzero(~missing)[0])
         return Stamps(seconds, has_date, period, (row, str(text.iloc[row]), YEAR_FIRST))
     return Stamps(seconds, has_date, period)
-
-
-def _iso(year: str, month: str, day: str) -> str:
-    """A date with the name of its month as pandas reads it."""
-    small = month[:3].casefold()
-    return f"{year}-{MONTHS.index(small) + 1:02d}-{int(day):02d}" if small in MONTHS else month
 
 
 def _moments(text: pd.Series, half: npt.NDArray[np.object_]) -> Numbers:
