@@ -12,7 +12,6 @@ import pytest
 
 from studies.common.paper_machine import hydraulic_cylinders
 from support_exudyn import (
-    AppliedForce,
     ClosedInlet,
     CubicStep,
     Failure,
@@ -50,25 +49,15 @@ def table(t: float, between: Any) -> TableDrive:
     return TableDrive(times=(t, 0.02, 0.025), extensions=(0.0, 0.001, 0.0005), between=between)
 
 
-def pressed(t: float) -> AppliedForce:
-    return AppliedForce(body="canopy", point=(0.5, 3.0), full_force=(0.0, -1e5), start=t, end=0.02)
-
-
 # each with something that breaks at a time [s]
 SCENES: dict[str, Callable[[float], Scenario]] = {
     "smooth": lambda t: support(drive=cubic(t), **SHORT),
     "struck": lambda t: support(drive=uniform(t), **SHORT),
-    "table": lambda t: support(drive=table(t, "smooth"), **SHORT),
     "table of lines": lambda t: support(drive=table(t, "linear"), **SHORT),
-    "two drives": lambda t: support(drive=uniform(BREAK), drives={"front_column": uniform(t)}, **SHORT),
     "oil": lambda t: support(drive=cubic(t), actuators=OILS, **SHORT),
-    "load": lambda t: support(loads={"press": pressed(t)}, **SHORT),
     "growing steps": lambda t: support(drive=cubic(t), solver=SolverSettings(growth=8), **SHORT),
     "with_clearance": lambda t: loose_support(0.5, 0.25, drive=cubic(t), start="settled", **SHORT),
     "clearance, struck": lambda t: loose_support(0.5, 0.25, drive=uniform(t), start="settled", **SHORT),
-    "clearance, growing steps": lambda t: loose_support(
-        0.5, 0.25, drive=cubic(t), start="settled", solver=SolverSettings(growth=8), **SHORT
-    ),
     "space": lambda t: support(drive=uniform(t), dimensions=3, **SHORT),
     "clearance in space": lambda t: loose_support(
         0.5, drive=cubic(t), dimensions=3, start="settled", **SHORT | {"duration": 0.015}

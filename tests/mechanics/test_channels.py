@@ -7,17 +7,15 @@ from typing import Any
 import numpy as np
 import pytest
 
-from support_exudyn import ClearancePin, OilColumn, Scenario, SolverSettings, bore_area
+from support_exudyn import Scenario, SolverSettings
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.channels import EVERYTHING, DataNeeds, chosen
 from support_exudyn.mechanics.observed_run import Trajectory
 from support_exudyn.scenario.recorded_channels import channels, needs
-from tests.cases.machine_cases import contact, support
+from tests.cases.machine_cases import support
 from user_forces import InputError
 
 SUPPORT = support()
-OIL = OilColumn(bore_area=bore_area(0.25, 2), oil_length=0.5, bulk_modulus=1.5e9)
-WITH_CLEARANCE = {"rear_base": ClearancePin(contact=contact())}
 PLAIN = Scenario(machine=SUPPORT, duration=1.0)
 NAMES = list(PLAIN.channel_definitions)
 
@@ -62,43 +60,6 @@ def test_a_pattern_that_matches_nothing_is_refused(wrong: str) -> None:
         f"Scenario: channels = {wrong!r}: matches no channel; allowed: names of channels, or "
     )
     assert any(name in said for name in NAMES[1:])  # what is near, or the first of them
-
-
-P, V, A, J, C, O, I = (  # noqa: E741
-    DataNeeds.POSITION,
-    DataNeeds.VELOCITY,
-    DataNeeds.ACCELERATION,
-    DataNeeds.JOINTS,
-    DataNeeds.CONTACTS,
-    DataNeeds.OIL,
-    DataNeeds.INTEGRALS,
-)
-
-
-@pytest.mark.parametrize(
-    ("pattern", "ideal", "with_clearance", "oil"),
-    [
-        ("tip.*", P, P, P),
-        ("*_column.length", P, P, P),
-        ("*.angle", P, P, P),
-        ("shield.velocity_x", V, V, V),
-        ("energy.kinetic", V, V, V),
-        ("*.angular_acceleration", A, A, A),
-        ("pin.rear_base.*", J, P | V | C, J),
-        ("pin.front_base.*", J, J, J),
-        ("*_column.force", J, J, P | V | DataNeeds.OIL),
-        ("energy.potential", P, P, P),
-        ("energy.elastic", DataNeeds.NOTHING, P | V | C, P | V | DataNeeds.OIL),
-        ("energy.*_loss", I, I, I),
-        ("energy.work", I, I, I),
-        ("energy.balance", P | V | I, P | V | I | C, P | V | I | DataNeeds.OIL),
-        ("time", DataNeeds.NOTHING, DataNeeds.NOTHING, DataNeeds.NOTHING),
-    ],
-)
-def test_what_is_needed(pattern: str, ideal: DataNeeds, with_clearance: DataNeeds, oil: DataNeeds) -> None:
-    assert needs(scenario(pattern)) == ideal
-    assert needs(scenario(pattern, pins=WITH_CLEARANCE)) == with_clearance
-    assert needs(scenario(pattern, actuators=dict.fromkeys(SUPPORT.linkage().actuators, OIL))) == oil
 
 
 @pytest.mark.parametrize("name", NAMES)
