@@ -34,6 +34,7 @@ from user_forces import (
     Exact,
     Frictionless,
     HuntCrossley,
+    InputError,
     LankaraniNikravesh,
     NormalLaw,
     delivered_restitution,
@@ -291,3 +292,16 @@ def test_a_block_that_lies_on_its_wall_slides_as_coulomb_says(mu: float) -> None
     # without a moment about its centre: the wall presses ahead of it, by as much as friction is below
     assert result["guide.guide.place"][-1] == pytest.approx(mu * 0.5 * BLOCK[1], rel=1e-3, abs=1e-6)
     assert result["guide.guide.moment"][-1] == pytest.approx(0.0, abs=1e-4 * weight)
+
+
+def test_what_does_not_fit_is_refused() -> None:
+    guide = ClearanceGuide.simple(gaps=1e-3, block=BLOCK)
+    scene = pair(FreePair(), guide, 0.01)
+    with pytest.raises(InputError, match=r"guides\.slot: unknown guide 'slot'; allowed: guide"):
+        replace(scene, guides={"slot": guide})
+    with pytest.raises(InputError, match=r"guides\.guide: has a pin_radius; allowed: block"):
+        replace(scene, guides={"guide": ClearanceGuide.simple(gaps=1e-3, pin_radius=0.01)})
+    with pytest.raises(InputError, match=r"guides\.guide: has a block; allowed: pin_radius"):
+        pair(FreePair(turns=True), guide, 0.01)
+    with pytest.raises(InputError, match=r"gaps = \(0\.0, 0\.0\) m: allowed: at least one > 0"):
+        ClearanceGuide.simple(gaps=0.0, block=BLOCK)

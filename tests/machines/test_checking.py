@@ -21,6 +21,7 @@ from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.model.linkage import lumped
 from support_exudyn.model.plane_geometry import moved
 from tests.machine_files import OURS, written
+from user_forces import InputError
 
 G = 9.81
 SHIELDS = ("reference", "zf18000", "two_leg_shield")
@@ -231,3 +232,24 @@ def test_further_doubts(tmp_path: Path, changes: dict[str, str], said: str) -> N
         text = re.sub(rf"\n{name} = \[.*\]", f"\n{name} = {place}", text)
     warnings = check_machine(load_machine(written(tmp_path, text=text))).warnings
     assert any(said in warning for warning in warnings), warnings
+
+
+def test_a_stroke_may_be_asked_for_and_may_be_too_long() -> None:
+    data = read_machine("reference")
+    assert check_machine(data, 0.1).numbers["stroke_m"] == 0.1
+    report = check_machine(data, 5.0)
+    assert report.numbers["locks"]
+    assert report.numbers["travel"][1] == pytest.approx(1.1128, abs=1e-4)
+    assert any("the linkage locks or opens there" in warning for warning in report.warnings)
+    with pytest.raises(InputError, match="no single actuator drives this machine"):
+        check_machine(read_machine("slider_crank"), 1.0)
+
+
+def test_metres_in_place_of_millimetres(tmp_path: Path) -> None:
+    text = OURS.replace("= 2050", "= 2.05").replace("= 600", "= 0.6")
+    for line in OURS.splitlines():
+        if " = [" in line:
+            name, x, y = line.replace(" = [", ", ").rstrip("]").split(", ")
+            text = text.replace(line, f"{name} = [{float(x) / 1e3}, {float(y) / 1e3}]")
+    report = check_machine(load_machine(written(tmp_path, text=text)))
+    assert any("are they given in metres?" in warning for warning in report.warnings)

@@ -300,3 +300,9 @@ def test_a_mass_on_an_upright_guide_over_a_jack_has_no_dead_centre(length: float
     assert way.ends == way.goal == pytest.approx((-0.3 * length, 0.3 * length))
     assert not way.locks
     check_figure(report)  # it has no pins, whose forces would be drawn
+
+
+def test_two_cranks_that_fight_are_told() -> None:
+    report = checked(driven(four_bar(*CRANK_ROCKER), "crank", "rocker"))
+    assert report.warnings[0].startswith("cranks.crank and cranks.rocker: one drive too many")
+    assert report.ways == []

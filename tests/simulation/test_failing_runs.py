@@ -19,7 +19,8 @@ from support_exudyn import (
     SolverSettings,
     simulate,
 )
-from tests.cases.run_cases import loose_support, paper_contact
+from tests.cases.run_cases import Pair, loose_support, paper_contact
+from tests.formulations.test_momentum import ONE, TWO
 from user_forces import friction_law
 from user_forces.lawful import UNLAWFUL
 
@@ -111,3 +112,12 @@ def test_a_run_is_given_up_after_so_many_steps(case: str) -> None:
     assert "solver.most_steps" in failure.advice
     assert 0.0 < failure.time < scenario.duration
     assert isinstance(limited(scenario, 2 * most), Result)
+
+
+def test_steps_that_the_engine_makes_by_itself_are_limited_too() -> None:
+    machine = Pair(one=ONE, two=TWO, one_point=(0.2, 0.25), two_point=(0.2, 0.25))
+    swinging = Scenario(machine=machine, duration=0.1, step=1e-3)
+    failure = limited(swinging, 20)
+    assert isinstance(failure, Failure)
+    assert failure.reason == "more than 20 steps"
+    assert isinstance(limited(swinging, 200), Result)

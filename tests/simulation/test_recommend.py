@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
-from support_exudyn import Estimate, Scenario, recommend, reference_support
+from support_exudyn import Estimate, Recommendation, Scenario, recommend, reference_support
 from support_exudyn.simulation.evidence.table import EvidenceTable, Tried, committed, fields_of
 from support_exudyn.simulation.recommend import QUESTIONS, STROKE, answers_alike
 
@@ -61,3 +63,12 @@ def test_the_advice_follows_from_the_table_by_the_rule(question: str) -> None:
     assert advised.elements == min(scene.elements for scene in near)
     assert all(item.passes for item in advice.evidence)
     assert advice.question == question
+
+
+@pytest.mark.parametrize("question", QUESTIONS)
+def test_what_is_recommended_can_be_set(question: str) -> None:
+    advice: Recommendation = recommend(question)
+    scenario = advice.apply(PLAIN)
+    assert scenario == replace(PLAIN, **advice.fields)
+    assert fields_of(scenario) == dict(advice.fields)
+    assert scenario.dimensions == (3 if question == "unequal columns" else 2)

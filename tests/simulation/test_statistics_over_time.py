@@ -196,6 +196,13 @@ def three(*forces: np.ndarray) -> Result:
     return found
 
 
+def test_the_time_of_the_largest_is_that_of_its_record() -> None:
+    when = three(*(bumps(second) for second in (1.0, 1.01, 1.011))).numbers()[f"{FORCE}.largest_time"]
+    assert when.unit == "s"
+    assert when.value == pytest.approx(0.2)  # where the force pulls with 2 N
+    assert PERIOD <= when.error < 2.0 * PERIOD
+
+
 def test_where_another_time_could_be_meant_the_error_reaches_there() -> None:
     # the runs differ by 0.01 N, and the tops by half of that
     when = three(*(bumps(second) for second in (1.985, 1.985, 1.995))).numbers()[f"{FORCE}.largest_time"]

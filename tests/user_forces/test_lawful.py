@@ -19,12 +19,14 @@ from user_forces import (
     JournalBearing,
     JournalContact,
     LoadError,
+    NormalLaw,
     friction_law,
     normal_law,
+    value,
 )
 from user_forces.connector.attachment import Attachment, compiled_kernel
 from user_forces.contact import ContactForce, SlipHistory
-from user_forces.kernel import limited, sign
+from user_forces.kernel import kernel, limited, sign
 from user_forces.lawful import LawError, check_laws, look
 
 BEARING = JournalBearing(bore_radius=0.0655, clearance=0.0015)
@@ -100,6 +102,60 @@ def test_what_is_no_force_is_told(wrong: dict[str, float], reason: str) -> None:
         look(CONTACT, **STATE | wrong)
     with pytest.raises(LawError, match=f"rear_base: {reason}"):
         look(CONTACT, **STATE | wrong, pin="rear_base")
+
+
+# --- before a run ---
+
+
+@value
+class Richer(NormalLaw):
+    """Its energy is 2.2 times the integral of its force."""
+
+    @staticmethod
+    @kernel
+    def force(depth: float, rate: float, impact_velocity: float) -> float:
+        return 1e9 * depth
+
+    @staticmethod
+    @kernel
+    def energy(depth: float) -> float:
+        return 1.1e9 * depth * depth
+
+
+def raising(depth: float, rate: float, impact_velocity: float) -> float:
+    raise KeyError("stiffness")
+
+
+def gripping(slip: float, normal_force: float) -> float:
+    return -50.0 * normal_force * math.tanh(slip / 1e-3)
+
+
+def silent(slip: float, normal_force: float) -> Any:
+    return None
+
+
+@pytest.mark.parametrize(
+    ("laws", "said"),
+    [
+        (
+            {"normal": normal_law(raising)()},
+            "Raising.elastic_force fails at a depth of 1e-09 m: KeyError: 'stiffness'",
+        ),
+        (
+            {"normal": Richer()},
+            "Richer.elastic_energy is 1.1e-09 J at a depth of 1e-09 m, and the integral of elastic_force up to there 5e-10 J",
+        ),
+        (
+            {"friction": friction_law(gripping)()},
+            "Gripping has a coefficient of 38.0797 at a slip of 0.001 m/s",
+        ),
+        ({"friction": friction_law(silent)()}, "Silent fails at a slip of 0 m/s and 1000 N: TypeError"),
+    ],
+)
+def test_a_law_that_cannot_be_is_refused_before_a_run(laws: dict[str, Any], said: str) -> None:
+    check_laws(CONTACT, "pin")
+    with pytest.raises(LawError, match=f"pin: {said}"):
+        check_laws(replace(CONTACT, **laws), "pin")
 
 
 # --- what is no number is not cut away ---

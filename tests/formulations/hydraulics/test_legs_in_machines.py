@@ -33,7 +33,7 @@ from support_exudyn import (
 from support_exudyn.scenario.solver_settings import SolverSettings
 from tests.cases.cylinder_cases import lift, on_cylinders, opened
 from tests.cases.run_cases import FORCE, support
-from tests.formulations.hydraulics.leg_cases import LENGTH, Uprights
+from tests.formulations.hydraulics.leg_cases import LENGTH, STAGE, WIDE, Uprights
 from tests.roof_cases import DAMPED, ON_OIL, OVER_THE_COLUMNS
 
 MASS, GRAVITY = 3000.0, 9.81
@@ -182,6 +182,18 @@ def test_a_valve_whose_opening_pressure_the_load_exceeds_is_open(formulation: st
     # open, the valve lets out in proportion to what is above the closing pressure
     np.testing.assert_allclose(flow, 1e-4 / 1e5 * (pressure - 1e6), rtol=1e-9)
     assert pressure[-1] < pressure[0] - 1e4
+
+
+def test_two_stages_rest_alike_in_both_formulations() -> None:
+    columns = {
+        name: replace(oil, second_stage=STAGE, end_stops=WIDE, line=DAMPED[name].line)
+        for name, oil in ON_OIL.items()
+    }
+    one, other = (settled(columns, formulation) for formulation in FORMULATIONS)
+    assert one["roof.force"][0] == pytest.approx(other["roof.force"][0], rel=1e-9)
+    for run in (one, other):
+        assert np.ptp(run["roof.force"]) < 1e-8 * run["roof.force"][0]
+        assert np.ptp(run["front_column.stage_extension"]) < 1e-10
 
 
 # --- in space, where each is one of a pair ---

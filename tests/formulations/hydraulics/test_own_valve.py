@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 from typing import ClassVar
 
 import numpy as np
@@ -17,9 +18,12 @@ from support_exudyn import (
     Scenario,
     SolverSettings,
     TrappedAir,
+    channels,
+    reference_support,
     simulate,
     value,
 )
+from support_exudyn.files.scenarios.scenario_file import read_scenario, save_scenario
 from support_exudyn.model.hydraulics.valves import NO_GAP, Room
 from tests.formulations.hydraulics.leg_cases import COLUMN, LENGTH, MASS, scene
 from user_forces import InputError
@@ -166,6 +170,14 @@ def test_a_settled_leg_has_one_pressure_in_all_rooms(formulation: str) -> None:
         assert result[f"leg0.{name}"][0] == pytest.approx(LOAD, rel=1e-6), name
     rise = brentq(lambda extension: pressure(oil, extension) - LOAD, -0.1, 0.1)
     assert result["leg0.length"][0] - LENGTH == pytest.approx(rise, rel=1e-6)
+
+
+def test_its_channels_are_known_and_it_is_kept_in_files(tmp_path: Path) -> None:
+    table = channels(SCENE)
+    assert table["leg0.limiter.flow"] == ("m^3/s", "from piston to tank")
+    assert table["leg0.limiter.spool"] == ("Pa", "drop that its spool has followed")
+    scenario = replace(SCENE, machine=reference_support(), actuators={"front_column": SCENE.actuators["leg0"]})
+    assert read_scenario(save_scenario(scenario, tmp_path / "own.toml")) == scenario
 
 
 @value
