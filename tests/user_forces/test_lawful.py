@@ -143,7 +143,7 @@ def silent(slip: float, normal_force: float) -> Any:
         ),
         (
             {"normal": Richer()},
-            "Richer.elastic_energy is 1.1e-09 J at a depth of 1e-09 m, and the integral of elastic_force up to there 5e-10 J",
+            "Richer.elastic_energy is 1.1e-09 J at a depth of 1e-09 m, and the integral of elastic_force",
         ),
         (
             {"friction": friction_law(gripping)()},
