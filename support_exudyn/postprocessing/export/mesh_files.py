@@ -23,7 +23,6 @@ from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
 
 MESHES = Sampling(frames_per_second=25.0)
-MOST_VALUES = 500_000_000  # in the HDF5 file of an XDMF; 4 GB before compression
 COMPRESSION: dict[str, Any] = {"compression": "gzip", "compression_opts": 4, "shuffle": True}
 STEP = re.compile(r"(machine|pins)(\.pvd|_\d{5,}\.vtu)")  # files of an earlier export
 
@@ -56,8 +55,8 @@ def to_xdmf(
 
     Returns the paths of what was written, the machine's first.
 
-    Raises InputError if a channel is missing, no record is chosen, they take too much memory, or the path ends
-    otherwise; OSError if it cannot be written. After an error or an interruption nothing has changed.
+    Raises InputError if a channel is missing, no record is chosen, or the path ends otherwise; OSError if it
+    cannot be written. After an error or an interruption nothing has changed.
     """
     path = Path(path)
     if path.suffix != ".xdmf" or ":" in path.stem:
@@ -67,25 +66,15 @@ def to_xdmf(
         )
     records = sampling.records(result.time)
     series = meshes_of(result, records[0])
-    frames = [mesh.frame(records[0]) for mesh in series]
-    values = sum(points.size + sum(one.size for one in data.values()) for points, data in frames)
-    if len(records) * values > MOST_VALUES:
-        raise InputError(
-            f"{len(records)} steps of {values} numbers each: allowed in one XDMF file: {MOST_VALUES:g}, "
-            f"here {MOST_VALUES // values} steps; choose fewer frames a second or a shorter time, or VTU"
-        )
     store, table = f"{path.stem}_mesh.h5", f"{path.stem}_names.csv"
     indexes = [f"{path.stem}.xdmf", f"{path.stem}_pins.xdmf"][: len(series)]
     with whole_set(path.parent, (store, table, *indexes)) as folder:
-        # made in memory: on a full disk HDF5 would end the whole process
-        with h5py.File(store, "w", driver="core", backing_store=False) as file:
+        with h5py.File(folder / store, "w") as file:
             writers = [MovingMeshWriter(mesh, file, store) for mesh in series]
             for step, record in enumerate(records, 1):
                 for writer in writers:
                     writer.write_step(float(result.time[record]), record)
                 progress(step / len(records))
-            file.flush()
-            (folder / store).write_bytes(file.id.get_file_image())
         _write_names(folder / table, series)
         for writer, index in zip(writers, indexes, strict=True):
             _write_xml(folder / index, writer.xdmf_file)

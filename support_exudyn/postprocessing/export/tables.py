@@ -71,8 +71,7 @@ def to_hdf5(result: Result, path: str | Path, sampling: Sampling = TABLES) -> tu
     """
     path, records = Path(path), sampling.records(result.time)
     check_is_no_run(path)
-    # made in memory: on a full disk HDF5 would end the whole process
-    with h5py.File("channels", "w", driver="core", backing_store=False) as file:
+    with whole_file(path) as temporary, h5py.File(temporary, "w") as file:
         _set_text(file, "format", EXPORTED)
         for name, channel in result.channels.items():
             _put(file, f"channels/{name}", channel.values[records], channel.unit, channel.meaning)
@@ -90,10 +89,6 @@ def to_hdf5(result: Result, path: str | Path, sampling: Sampling = TABLES) -> tu
         for name, said in told.items():
             text = json.dumps(said)  # in ASCII
             file.create_dataset(f"json/{name}", data=np.bytes_(text.encode("ascii")))
-        file.flush()
-        image = file.id.get_file_image()
-    with whole_file(path) as temporary:
-        temporary.write_bytes(image)
     return (path,)
 
 

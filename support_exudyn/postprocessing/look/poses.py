@@ -115,7 +115,6 @@ class Poses:
     """
 
     def __init__(self, result: Result) -> None:
-        self.time: Series = result.time
         self.of = lru_cache(maxsize=None)(lambda body: Pose(result, body))
 
     def frame(self, shape: Shape, record: int) -> Frame:

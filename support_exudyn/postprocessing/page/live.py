@@ -91,18 +91,12 @@ def of_drawing(drawing: Figure, panels: Sequence[int] | Mapping[int, str]) -> Li
     Arguments:
         drawing: whose panels are drawn over the same quantity.
         panels: which of `drawing.axes`; or their labels by which, if the drawing says them elsewhere.
-
-    Raises InputError for a panel that is not there, or that has no such curve.
     """
     named = panels if isinstance(panels, Mapping) else {}
     found = []
     for number in panels:
-        if not 0 <= number < len(drawing.axes):
-            raise InputError(f"panel {number}: there is none; allowed: 0 to {len(drawing.axes) - 1}")
         axes = drawing.axes[number]
         lines = [line for line in axes.get_lines() if _is_curve(axes, line)]
-        if not lines:
-            raise InputError(f"panel {number} ({axes.get_ylabel()}): has no line with a label; allowed: some")
         lines.sort(key=lambda line: float(line.get_zorder()))
         found.append(LivePanel(in_line(named.get(number, axes.get_ylabel())), _curves(lines)))
     of_panels = [drawing.axes[number].get_xlabel() for number in panels]

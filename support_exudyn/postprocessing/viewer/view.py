@@ -95,7 +95,7 @@ def open_viewer(
         result: the run.
         solution: path of a solution file of it that is shown in place of its records, see
             `save_solution`.
-        every: rows from frame to frame, 1 to 200, 25 frames a second; by default the run takes about 10 s.
+        every: rows from frame to frame, up to 200, 25 frames a second; by default the run takes about 10 s.
         name: of the run, shown in the window.
 
     Raises NoDisplayError, an OSError, if no window can be opened here; InputError if the run has not recorded
@@ -105,13 +105,10 @@ def open_viewer(
         from exudyn.interactive import SolutionViewer  # which needs tkinter
 
         count = int(shown.solution["nRows"])
-        most = min(MOST_SKIPPED, count)
-        if every is None:
-            every = max(1, min(MOST_SKIPPED, round(count * FRAME / LASTS)))
-        elif isinstance(every, bool) or not isinstance(every, int) or not 1 <= every <= most:
-            raise InputError(f"every = {short(every)}: allowed: a whole number from 1 to {most}")
+        step = round(count * FRAME / LASTS) if every is None else every
+        step = max(1, min(step, MOST_SKIPPED, count))
         SolutionViewer(
-            shown.model.scene.mbs, shown.solution, rowIncrement=every, timeout=FRAME, runMode=0,
+            shown.model.scene.mbs, shown.solution, rowIncrement=step, timeout=FRAME, runMode=0,
             title=f"{title(result, name)}: solution viewer",
         )  # fmt: skip
 
