@@ -144,7 +144,8 @@ def _written(lines: Sequence[str], separators: Sequence[str]) -> tuple[str, str,
     decimal = max(single, key=lambda one: single[one])
     by_comma = written is not None and written[0] == ","
     # 1,5 is a number, or two of them: titles with a comma tell
-    titled = any("," in line and kind_of(line.strip(), ",") != "number" for line in lines if line[:1] != "#")
+    words = [line for line in lines if kind_of(line.strip(), ",") != "number" and not COMMENTS[","].match(line)]
+    titled = any("," in line for line in words)
     if single[decimal] and (single[decimal] > best[0] or (by_comma and single[decimal] == best[0])):
         return written if by_comma and titled else (";", decimal, ("number",))  # a column without times
     return written
