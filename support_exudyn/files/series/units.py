@@ -193,8 +193,7 @@ PRODUCTS = {  # the only products: of v_m_s nobody knows whether it is a speed
     "kg_m2": "kg*m**2", "kg_m": "kg*m",
 }  # fmt: skip
 ENDINGS = {**{one: _as_pint_writes(one) for one in SMALL}, **PRODUCTS}
-ABOVE = {**ENDINGS, "l": "l", "t": "t", "": "1", "1": "1"}  # a "per"
-BELOW = {**ENDINGS, "s2": "s**2", "h": "h"}
+PER = {**ENDINGS, "l": "l", "t": "t", "h": "h", "s2": "s**2", "1": "1"}  # before and behind a "per"
 BRACKETS = re.compile(r"(.*\S)\s*(?:\[([^\[\]]*)\]|\(([^()]*)\)|\{([^{}]*)\})", re.DOTALL)
 # "time, s", "Pressure/MPa", "Force in kN", "Force kN"; before a stroke stands no unit, as in mm/s
 BARE = re.compile(r"(.*?[^\s,:/])(?:\s*(,|/)\s*|\s+(in)\s+|(\s+|:\s*))(\S+)", re.DOTALL)
@@ -254,10 +253,8 @@ def _ending(name: str, text: str) -> tuple[str | None, str]:
     """The unit that an ending of a title stands for, None: for none; and a note."""
     above, per, below = f"_{text}".partition("_per_")
     if per:
-        over, units = ABOVE.get(above[1:]), [BELOW.get(one) for one in below.split("_")]
-        product = "*".join(map(str, units))
-        known = over is not None and None not in units
-        return (f"{over}/({product})" if len(units) > 1 else f"{over}/{product}") if known else None, ""
+        units = [PER.get(one) for one in (above[1:] or "1", *below.split("_"))]
+        return None if None in units else "/".join(map(str, units)), ""
     if text in ENDINGS:
         return ENDINGS[text], ""
     small = text.casefold()
