@@ -87,19 +87,21 @@ def read_stamps(column: pd.Series) -> Stamps:
     """The stamps of a column of texts (n,), missing where there is none."""
     missing = column.isna().to_numpy()
     text = column.astype("str").str.strip()
-    half = text.str.extract(f"{HALF}$" if text.str.endswith(("M", "m", ".")).any() else "(上午|下午)")[0]
-    half = half.str.lower().replace({"上午": "a", "下午": "p"})
+    half = text.str.extract(
+        f"{HALF}$" if text.str.endswith(("M", "m", "."), na=False).any() else "(上午|下午)"
+    )[0]
+    half = half.str.lower().str.replace("上午", "a").str.replace("下午", "p")
     plain = text.str.replace(rf" ?{HALF}$|[上下]午 ?", "", regex=True)
-    minutes = bool(plain.str.match(r"^[0-9]{1,3}:[0-9]{2}[.,]").any())
+    minutes = bool(plain.str.match(r"[0-9]{1,3}:[0-9]{2}[.,]", na=False).any())
     shapes = plain[~missing].str.replace("[0-9]", "1", regex=True).unique()  # few, by which a pattern is tried
     for pattern, new in REWRITTEN:
         if any(re.search(pattern, one) for one in shapes):
             plain = plain.str.replace(pattern, new, regex=True)
             shapes = [re.sub(pattern, new, one) for one in shapes]
     has_date = not bool(plain[~missing].str.match(r"[0-9]{1,3}:").all())
-    period = HOUR if minutes else DAY if bool(plain.str.contains(":|[0-9]{8}[T ]").any()) else 0.0
+    period = HOUR if minutes else DAY if bool(plain.str.contains(":|[0-9]{8}[T ]", na=False).any()) else 0.0
     read = _moments if has_date else _clocks
-    orders = (r"\3-\2-\1", r"\3-\1-\2") if bool(plain.str.match(SWAPPED).any()) else ("",)
+    orders = (r"\3-\2-\1", r"\3-\1-\2") if bool(plain.str.match(SWAPPED, na=False).any()) else ("",)
     found = [read(plain.str.replace(SWAPPED, order, regex=True), half.to_numpy()) for order in orders]
     whole = [one for one in found if np.isfinite(one[~missing]).all()]
     rising = [one for one in whole if (np.diff(one[~missing]) >= 0.0).all()]

@@ -182,7 +182,7 @@ def _numbers(column: pd.Series, decimal: str) -> tuple[Numbers, int | None]:
     if column.dtype.kind in "iuf":
         return column.to_numpy(dtype=np.float64), None
     text = _texts(column)
-    known = text.isna() | text.str.fullmatch(NUMBERS[decimal])
+    known = text.str.fullmatch(NUMBERS[decimal], na=True)
     if not known.all():
         return np.empty(0), int(np.argmin(known))
     plain = text.str.replace(f"[{',' if decimal == '.' else '.'}{SIGNS}]", "", regex=True).str.lower()
