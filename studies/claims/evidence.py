@@ -1,10 +1,10 @@
-"""What a claim is judged by: measures of runs with their numerical error, and comparisons that know it."""
+"""What a claim is judged by: measures of runs with numerical errors, and relations that know them."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from itertools import pairwise
 
 Verdict = bool | None  # None: the numerical error leaves it open
@@ -17,9 +17,6 @@ class Measured:
     value: float
     error: float = 0.0
 
-    def __add__(self, other: Measured) -> Measured:
-        return Measured(self.value + other.value, self.error + other.error)
-
     def __sub__(self, other: Measured) -> Measured:
         return Measured(self.value - other.value, self.error + other.error)
 
@@ -27,25 +24,13 @@ class Measured:
         """Product with a known factor."""
         return Measured(factor * self.value, abs(factor) * self.error)
 
-    def over(self, other: Measured) -> Measured:
-        """Quotient; the error to first order."""
-        ratio = self.value / other.value
-        return Measured(ratio, (self.error + abs(ratio) * other.error) / abs(other.value))
-
     def above(self, limit: Measured | float) -> Verdict:
         """Whether it is larger than a number; None if the errors overlap."""
         gap = self - (limit if isinstance(limit, Measured) else Measured(limit))
-        if abs(gap.value) <= gap.error:
-            return None
-        return gap.value > 0.0
-
-    def below(self, limit: Measured | float) -> Verdict:
-        """Whether it is smaller than a number; None if the errors overlap."""
-        larger = self.above(limit)
-        return None if larger is None else not larger
+        return None if abs(gap.value) <= gap.error else gap.value > 0.0
 
     def format(self, digits: int = 4) -> str:
-        """To so many significant digits, fewer if the error does not leave them."""
+        """The number to so many significant digits, fewer if the error does not leave them."""
         size = max(abs(self.value), self.error)
         if size == 0.0:
             return "0"
@@ -56,72 +41,13 @@ class Measured:
         return text.lstrip("-") if float(text) == 0.0 else text
 
 
-@dataclass(frozen=True)
-class Evidence:
-    """All measures of one machine: by case (`CASES` in `plausible_runs`), then by name."""
-
-    measures: Mapping[str, Mapping[str, Measured]]
-
-    def __getitem__(self, place: tuple[str, str]) -> Measured:
-        case, name = place
-        return self.measures[case][name]
-
-    def row(self, name: str, cases: Iterable[str]) -> list[Measured]:
-        """One measure over several cases."""
-        return [self[case, name] for case in cases]
-
-
-@dataclass(frozen=True)
-class NotedEvidence(Evidence):
-    """Evidence that notes what it is asked for: measures by name, then by case."""
-
-    asked: dict[str, dict[str, Measured]] = field(default_factory=dict)
-
-    def __getitem__(self, place: tuple[str, str]) -> Measured:
-        case, name = place
-        found = self.asked.setdefault(name, {})[case] = super().__getitem__(place)
-        return found
-
-    def describe(self, of_all: Sequence[str]) -> str:
-        """What was asked for, in words; cases are named unless they are those of `of_all`."""
-        texts = []
-        for name, row in self.asked.items():
-            named = (f"{m.format(5)} ({case})" for case, m in row.items())
-            values = (m.format(5) for m in row.values()) if [*row] == [*of_all] else named
-            what = " ".join(IN_WORDS.get(word, word) for word in name.split("_"))
-            texts.append(f"{what} {', '.join(values)} {unit(name)}".rstrip())
-        return "; ".join(texts)
-
-    @property
-    def largest_error(self) -> float | None:
-        """Largest numerical error of what was asked for, as a share of its value; None if nothing was."""
-        every_one = [m for row in self.asked.values() for m in row.values()]
-        return max((m.error / abs(m.value) if m.value else math.inf for m in every_one), default=None)
-
-
-IN_WORDS = {"rms": "RMS fluctuation of", "likeness": "correlation of trends of", "std": "standard deviation of"}
-UNITS = {"force": "N", "speed": "deg/s", "acceleration": "deg/s^2", "impulse": "N s", "tip": "mm"}
-
-
-def unit(name: str) -> str:
-    """The unit of a measure, by its name; empty for a correlation."""
-    if name.startswith("likeness"):
-        return ""
-    return next((unit for word, unit in UNITS.items() if word in name.split("_")), "deg")
+Evidence = Mapping[str, Mapping[str, Measured]]  # all measures of a machine, by case and by name
 
 
 def every(verdicts: Iterable[Verdict]) -> Verdict:
     """Whether all are true: false if one is, open if one is open and none false."""
-    found = list(verdicts)
-    if any(v is False for v in found):
-        return False
-    return None if any(v is None for v in found) else True
-
-
-def some(verdicts: Iterable[Verdict]) -> Verdict:
-    """Whether one is true at least."""
-    none = every(opposite(v) for v in verdicts)
-    return opposite(none)
+    kinds = set(verdicts)
+    return False if False in kinds else None if None in kinds else True
 
 
 def opposite(verdict: Verdict) -> Verdict:
@@ -129,13 +55,57 @@ def opposite(verdict: Verdict) -> Verdict:
     return None if verdict is None else not verdict
 
 
-def rising(row: list[Measured]) -> Verdict:
-    """Whether each is larger than the one before."""
+# --- relations among the values of a measure over cases ---
+
+Row = Sequence[Measured]
+Relation = Callable[[Row, float, Measured | None], Verdict]  # row, threshold, and what it is a share of
+
+
+def _limit(at: float, of: Measured | None) -> Measured:
+    return Measured(at) if of is None else Measured(abs(of.value), of.error).times(at)
+
+
+def above(row: Row, at: float, of: Measured | None = None) -> Verdict:
+    """Whether all values are above a threshold, or above that share of another number."""
+    return every(m.above(_limit(at, of)) for m in row)
+
+
+def below(row: Row, at: float, of: Measured | None = None) -> Verdict:
+    """Whether all values are below a threshold, or below that share of another number."""
+    return every(_limit(at, of).above(m) for m in row)
+
+
+def rising(row: Row, at: float = 0.0, of: Measured | None = None) -> Verdict:
+    """Whether each value is larger than the one before."""
     return every(after.above(before) for before, after in pairwise(row))
 
 
-def within(row: list[Measured], share: float, of: Measured | None = None) -> Verdict:
-    """Whether the largest and the smallest differ by less than a share of the first, or of `of`."""
-    scale = of or row[0]
+def within(row: Row, at: float, of: Measured | None = None) -> Verdict:
+    """Whether the largest and the smallest differ by less than a share of the first, or of another number."""
     span = max(row, key=lambda m: m.value) - min(row, key=lambda m: m.value)
-    return span.below(Measured(abs(scale.value), scale.error).times(share))
+    return _limit(at, of or row[0]).above(span)
+
+
+def least_inside(row: Row, at: float = 0.0, of: Measured | None = None) -> Verdict:
+    """Whether a value between the first and the last is smaller than both."""
+    first, *inner, last = row
+    return opposite(every(opposite(every([first.above(m), last.above(m)])) for m in inner))
+
+
+def jump(row: Row, at: float, of: Measured | None = None) -> Verdict:
+    """Whether both values of the second half are above those of the first half, times `at`."""
+    half = len(row) // 2
+    return every(large.above(small.times(at)) for large in row[half:] for small in row[:half])
+
+
+RELATIONS: dict[str, Relation] = {
+    "above": above,
+    "below": below,
+    "rising": rising,
+    "falling": lambda row, at, of: rising(row[::-1]),
+    "not rising": lambda row, at, of: opposite(rising(row)),
+    "within": within,
+    "apart": lambda row, at, of: opposite(within(row, at, of)),
+    "least inside": least_inside,
+    "jump": jump,
+}

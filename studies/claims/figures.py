@@ -13,7 +13,7 @@ from studies.claims.evidence import Evidence
 from studies.claims.plausible_runs import CLEARANCES
 from studies.claims.verdicts import BOUNDS, KINDS, Machines, Ruling
 from studies.common import paper_machine
-from studies.common.panels import letters
+from studies.common.panels import finish, grid, letters
 from studies.common.paper_machine import SIZES_MM
 from support_exudyn.postprocessing.figures import style
 
@@ -38,7 +38,7 @@ def figures(
 
 def share_figure(rulings: Sequence[Ruling]) -> Figure:
     """A bar a measurable statement, in two columns."""
-    shown = [(n, ruling) for n, ruling in enumerate(rulings, 1) if ruling.claim.judge is not None]
+    shown = [(n, ruling) for n, ruling in enumerate(rulings, 1) if ruling.claim.is_measurable]
     rows = -(-len(shown) // 2)
     drawing = Figure(figsize=style.size(180, 25 + 3.5 * rows))
     panels = drawing.subplots(1, 2)
@@ -47,7 +47,12 @@ def share_figure(rulings: Sequence[Ruling]) -> Figure:
     letters(panels)
     found = {ruling.kind for _, ruling in shown}
     bars = [Patch(color=colour, label=kind) for kind, colour in COLOURS.items() if kind in found]
-    drawing.legend(handles=[*bars, *_marks()], loc="outside lower center", ncols=3, fontsize=8)
+    squares = {"holds on the reference support": "black", "does not": "none"}
+    marks = [Line2D([], [], **SECOND, label="second hypercube")]
+    marks += [
+        Line2D([], [], color="black", marker="s", ls="", ms=4, mfc=c, label=n) for n, c in squares.items()
+    ]
+    drawing.legend(handles=[*bars, *marks], loc="outside lower center", ncols=3, fontsize=8)
     return drawing
 
 
@@ -58,7 +63,7 @@ def _bars(axes: Axes, shown: Sequence[tuple[int, Ruling]], rows: int) -> None:
             axes.barh(y, 100 * ruling.first.share, color=COLOURS[ruling.kind], height=0.68)
             axes.plot([100 * end for end in ruling.first.interval], [y, y], color="black", lw=0.9)
         else:
-            why = "closed form" if ruling.claim.closed_form else "undecided on all"
+            why = "closed form" if ruling.claim.stiffness_mm else "undecided on all"
             axes.text(8.0, y, why, va="center", fontsize=SMALL)
         if ruling.second.share is not None:
             axes.plot(100 * ruling.second.share, y, **SECOND)
@@ -72,55 +77,38 @@ def _bars(axes: Axes, shown: Sequence[tuple[int, Ruling]], rows: int) -> None:
     axes.set_axisbelow(True)
 
 
-def _marks() -> list[Line2D]:
-    squares = {"holds on the reference support": "black", "does not": "none"}
-    return [
-        Line2D([], [], **SECOND, label="second hypercube"),
-        *(
-            Line2D([], [], color="black", marker="s", ls="", ms=4, mfc=full, label=label)
-            for label, full in squares.items()
-        ),
-    ]
-
-
 def force_figure(reference: Evidence, first: Machines, second: Machines) -> Figure:
-    """Table 3 over all machines, against 0.5 mm: a column a measure."""
-    drawing = Figure(figsize=style.size(170, 85))
-    panels = drawing.subplots(1, 2, sharex=True)
-    measures = {"mean_force": ("mean", paper_machine.MEAN_FORCE)}
-    measures["std_force"] = ("std. deviation", paper_machine.FORCE_SPREAD)
-    for axes, (name, (what, paper)) in zip(panels, measures.items(), strict=True):
+    """Table 3 over all machines, against 0.5 mm: a column a measure; how many lines leave a panel is noted."""
+    drawing, panels = grid(85, 1, 2, sharex=True)
+    measures = {
+        "mean_force": ("mean", paper_machine.MEAN_FORCE),
+        "std_force": ("std. deviation", paper_machine.FORCE_SPREAD),
+    }
+    for axes, (name, (what, paper)) in zip(panels.flat, measures.items(), strict=True):
+
+        def change(evidence: Evidence, name: str = name) -> np.ndarray:
+            return _against_first([evidence[case][name].value for case in CLEARANCES])
+
         every = []
         for (label, colour), machines in zip(HYPERCUBES.items(), (first, second), strict=True):
-            lines = [_against_first([m.value for m in e.row(name, CLEARANCES)]) for _, e in machines]
-            every += lines
+            lines = np.array([change(evidence) for _, evidence in machines]).reshape(-1, len(SIZES_MM))
+            every.append(lines)
             for n, line in enumerate(lines):
                 axes.plot(SIZES_MM, line, color=colour, lw=0.5, alpha=0.6, label=None if n else label)
-        ours = _against_first([m.value for m in reference.row(name, CLEARANCES)])
         printed = _against_first(list(paper.values()))
-        axes.plot(SIZES_MM, ours, color="black", lw=1.6, label="reference support")
+        axes.plot(SIZES_MM, change(reference), color="black", lw=1.6, label="reference support")
         axes.plot(SIZES_MM, printed, "x", color=style.PAPER, ms=6, mew=1.5, label="paper")
-        _fit(axes, every, printed)
+        ends = np.concatenate(every)
+        lowest, highest = ends.min(axis=1), ends.max(axis=1)
+        low = min(float(np.quantile(lowest, 0.05)), printed.min())  # nine tenths of the lines
+        high = max(float(np.quantile(highest, 0.95)), printed.max())
+        edge = 0.08 * (high - low)
+        axes.set_ylim(low - edge, high + edge)
+        if out := int(np.sum((lowest < low - edge) | (highest > high + edge))):
+            note = f"{out} of {len(ends)} lines leave the panel"
+            axes.text(0.02, 0.98, note, transform=axes.transAxes, va="top", fontsize=7)
         axes.set(ylabel=f"{what}, change [%]", xticks=SIZES_MM, xlabel="clearance [mm]")
-    letters(panels)
-    lines, names = panels[0].get_legend_handles_labels()
-    drawing.legend(lines, names, loc="outside lower center", ncols=2)
-    return drawing
-
-
-def _fit(axes: Axes, lines: Sequence[np.ndarray], printed: np.ndarray) -> None:
-    """A height for nine tenths of the lines and the paper's points; how many leave it is said."""
-    if not lines:
-        return
-    lowest, highest = [float(line.min()) for line in lines], [float(line.max()) for line in lines]
-    low = min(float(np.quantile(lowest, 0.05)), printed.min())
-    high = max(float(np.quantile(highest, 0.95)), printed.max())
-    edge = 0.08 * (high - low)
-    axes.set_ylim(low - edge, high + edge)
-    out = sum(a < low - edge or b > high + edge for a, b in zip(lowest, highest, strict=True))
-    if out:
-        said = f"{out} of {len(lines)} lines leave the panel"
-        axes.text(0.02, 0.98, said, transform=axes.transAxes, va="top", fontsize=7)
+    return finish(drawing, panels, 2)
 
 
 def _against_first(values: Sequence[float]) -> np.ndarray:

@@ -6,7 +6,6 @@ the pin's length, heavier bodies and other times. A sample gives a value to ever
 follow.
 """
 
-import inspect
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
@@ -29,7 +28,7 @@ from user_forces import Ambrosio, JournalContact
 from user_forces.values.value import InputError, Vector2
 
 Choice = str | float
-Sample = Mapping[str, Choice]  # a value of every datum, by name
+Sample = Mapping[str, Any]  # a value of every datum, by name
 
 REFERENCE_SCALE = 0.65  # of the support whose pivots the reference support has
 CONTACT = "contact"  # the datum by which both hypercubes differ: as printed, along the length
@@ -73,14 +72,6 @@ class Factor:
     def label(self) -> str:
         """The name in words."""
         return SYMBOLS.get(self.name, self.name.replace("_", " "))
-
-    def chosen(self, choice: str) -> str:
-        """A choice in words."""
-        return self.phrase.format(choice)
-
-    def bound(self, side: str, value: float) -> str:
-        """A bound in words; side: above or below."""
-        return f"{self.label} {side} {value:.3g} {self.unit}".rstrip()
 
     def span(self, *, second: bool) -> str:
         """The range or the choices in one of the hypercubes, in words."""
@@ -131,12 +122,10 @@ def samples(number: int, seed: int, *, second: bool = False) -> list[dict[str, C
         raise InputError(f"machines = {number}: allowed: at least 1")
     from scipy.stats import qmc  # takes a second to import
 
-    # what this version of scipy calls the argument
-    name = "rng" if "rng" in inspect.signature(qmc.LatinHypercube).parameters else "seed"
     drawn: list[dict[str, Choice]] = []
     for lot in range(-(-number // LOT)):
-        generator: dict[str, Any] = {name: np.random.default_rng([seed, lot])}
-        for shares in qmc.LatinHypercube(len(FACTORS), **generator).random(LOT):
+        hypercube = qmc.LatinHypercube(len(FACTORS), seed=np.random.default_rng([seed, lot]))
+        for shares in hypercube.random(LOT):
             sample = {f.name: f.at(float(x), second=second) for f, x in zip(FACTORS, shares, strict=True)}
             sample[CONTACT] = paper_machine.CYLINDERS if second else paper_machine.PAPER
             drawn.append(sample)
@@ -144,12 +133,12 @@ def samples(number: int, seed: int, *, second: bool = False) -> list[dict[str, C
 
 
 def machine(sample: Sample) -> HydraulicSupport:
-    """The support of a sample.
+    """The support of a sample: masses with the cube of its scale, the centres of a body's parts shifted alike.
 
     Raises InputError if its linkage cannot be closed at the start.
     """
     base = reference_support()
-    scale = number(sample, "scale") / REFERENCE_SCALE
+    scale = sample["scale"] / REFERENCE_SCALE
     pivots: dict[str, Any] = {
         name: _scaled(getattr(base, name), scale)
         for name in (
@@ -157,41 +146,31 @@ def machine(sample: Sample) -> HydraulicSupport:
             "rear_foot", "rear_head", "tip", "tail_hinge", "tail_jack_foot", "tail_jack_head",
         )
     }  # fmt: skip
-    parts = {name: _parts(name, base, sample, scale) for name in base.parts}
-    height = base.start_hinge_height * scale * number(sample, "start_height")
-    width = base.width and base.width.scaled(scale)
-    return replace(base, **pivots, parts=parts, start_hinge_height=height, width=width)
-
-
-def _parts(body: str, base: HydraulicSupport, sample: Sample, scale: float) -> tuple[Part, ...]:
-    """Parts of a body: masses with the cube of the scale, all centres shifted alike."""
-    factors = {
-        place: number(sample, f"mass_{name}")
-        for name, (of, places) in BODIES.items()
-        if of == body
-        for place in places
+    heavier = {
+        (body, place): sample[f"mass_{name}"] for name, (body, places) in BODIES.items() for place in places
     }
-    a, b = (np.array(getattr(base, pivot)) for pivot in MEMBERS[body])
-    along, across = b - a, np.array([a[1] - b[1], b[0] - a[0]])
-    shift = number(sample, f"centre_along_{body}") * along
-    if f"centre_across_{body}" in sample:
-        shift = shift + number(sample, f"centre_across_{body}") * across
-    shifted = []
-    for place, part in enumerate(base.parts[body]):
-        mass = part.mass * scale**3 * factors[place]
-        centre = (part.centre[0] + float(shift[0]), part.centre[1] + float(shift[1]))
-        heavier = scale**5 * factors[place]
-        moments = part.moments and (
-            part.moments[0] * heavier,
-            part.moments[1] * heavier,
-            part.moments[2] * heavier,
-        )
-        shifted.append(
-            replace(
-                part, mass=mass, centre=_scaled(centre, scale), inertia=part.inertia * heavier, moments=moments
-            )
-        )
-    return tuple(shifted)
+    shifts = {}
+    for body, ends in MEMBERS.items():
+        a, b = (np.array(getattr(base, pivot)) for pivot in ends)
+        across = sample.get(f"centre_across_{body}", 0.0) * np.array([a[1] - b[1], b[0] - a[0]])
+        shifts[body] = sample[f"centre_along_{body}"] * (b - a) + across
+
+    def part(body: str, place: int, one: Part) -> Part:
+        mass, inertia = (scale**power * heavier[body, place] for power in (3, 5))
+        x, y = (float(c + shift) for c, shift in zip(one.centre, shifts[body], strict=True))
+        moments = one.moments and (
+            one.moments[0] * inertia, one.moments[1] * inertia, one.moments[2] * inertia,
+        )  # fmt: skip
+        centre = _scaled((x, y), scale)
+        return replace(one, mass=one.mass * mass, centre=centre, inertia=one.inertia * inertia, moments=moments)
+
+    return replace(
+        base,
+        **pivots,
+        parts={body: tuple(part(body, n, one) for n, one in enumerate(of)) for body, of in base.parts.items()},
+        start_hinge_height=base.start_hinge_height * scale * sample["start_height"],
+        width=base.width and base.width.scaled(scale),
+    )
 
 
 def _scaled(point: Vector2, scale: float) -> Vector2:
@@ -202,13 +181,13 @@ def pin(sample: Sample, clearance_mm: float, support: HydraulicSupport) -> Clear
     """The rear-link clearance pin of a sample and its machine; the pin's radius is the paper's."""
     bearing = paper_machine.bearing(clearance_mm)
     normal = paper_machine.normal_law(
-        str(sample[CONTACT]),
+        sample[CONTACT],
         bearing,
         support,
-        POWER_LAWS[str(sample["law"])],
-        number(sample, "backing"),
-        restitution=number(sample, "restitution"),
-        rest_velocity=number(sample, "rest_velocity"),
+        POWER_LAWS[sample["law"]],
+        sample["backing"],
+        restitution=sample["restitution"],
+        rest_velocity=sample["rest_velocity"],
     )
     contact = JournalContact(bearing=bearing, normal=normal, friction=_friction(sample))
     return ClearancePin(contact=contact, bore="first" if sample["bore"] == "base" else "second")
@@ -221,31 +200,23 @@ def ideal_pin(sample: Sample) -> IdealPin:
 
 def _friction(sample: Sample) -> Ambrosio:
     return Ambrosio(
-        sliding_coefficient=number(sample, "sliding_coefficient"),
-        static_speed=number(sample, "static_speed"),
-        dynamic_speed=number(sample, "dynamic_speed"),
+        sliding_coefficient=sample["sliding_coefficient"],
+        static_speed=sample["static_speed"],
+        dynamic_speed=sample["dynamic_speed"],
     )
 
 
 def oil_columns(sample: Sample) -> dict[str, OilColumn]:
     """Both pairs of columns of a sample on oil, as large as its machine."""
-    scale = number(sample, "scale") / REFERENCE_SCALE
+    scale = sample["scale"] / REFERENCE_SCALE
     oil = OilColumn(
         bore_area=bore_area(scale * paper_machine.OIL_BORE, 2),
         oil_length=scale * paper_machine.OIL_LENGTH,
-        bulk_modulus=1e9 * number(sample, "bulk_modulus"),
+        bulk_modulus=1e9 * sample["bulk_modulus"],
         line=replace(
             paper_machine.HOSES,
-            volume=1e-3 * number(sample, "line_volume"),
-            nominal_drop=1e6 * number(sample, "line_drop"),
+            volume=1e-3 * sample["line_volume"],
+            nominal_drop=1e6 * sample["line_drop"],
         ),
     )
     return {"front_column": oil, "rear_column": oil}
-
-
-def number(sample: Sample, name: str) -> float:
-    """A factor that is a number."""
-    value = sample[name]
-    if isinstance(value, str):
-        raise InputError(f"{name} = {value!r}: allowed: a number")
-    return value

@@ -10,6 +10,7 @@ import hashlib
 import json
 import math
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -20,7 +21,7 @@ from pydantic import BaseModel, ValidationError
 
 import studies
 from studies.claims.evidence import Evidence, Measured
-from studies.claims.plausible import Sample, ideal_pin, machine, number, oil_columns, pin
+from studies.claims.plausible import Sample, ideal_pin, machine, oil_columns, pin
 from studies.common import paper_machine, rise
 from studies.common.numbers import Thinned, error_of_records
 from studies.common.runs import halvings, with_coarser
@@ -36,7 +37,6 @@ from support_exudyn import (
     simulate,
 )
 from support_exudyn.files.whole_file import contents, remove_leftovers, whole_file
-from support_exudyn.mechanics.trajectory import Impulse
 from support_exudyn.simulation.to_accuracy import with_measured
 from support_exudyn.sweeps.key import program
 from support_exudyn.sweeps.warm_up import warm_up
@@ -64,7 +64,7 @@ Data = dict[str, dict[str, list[float]]]  # case, name, [value, numerical error]
 
 def watched(sample: Sample) -> rise.Watched:
     """The pin, its link, and when the machine of a sample rises."""
-    return rise.Watched(rise.PAPER.pin, rise.PAPER.body, rise.START, rise.START + number(sample, "stroke_time"))
+    return rise.Watched(rise.PAPER.pin, rise.PAPER.body, rise.START, rise.START + sample["stroke_time"])
 
 
 def scenario(sample: Sample, case: str, support: HydraulicSupport) -> Scenario:
@@ -94,6 +94,9 @@ def scenario(sample: Sample, case: str, support: HydraulicSupport) -> Scenario:
 def measures(sample: Sample) -> Data:
     """All measures of a sample as plain data: case, name, [value, numerical error].
 
+    The error is that of steps, of records, and of equations: the tolerance, by which formulations agree, times
+    the size of what a value is made from.
+
     Raises InputError or SimulationError if a case cannot be run.
     """
     support, during = machine(sample), watched(sample)
@@ -101,36 +104,22 @@ def measures(sample: Sample) -> Data:
     coarse = {case: simulate(scene) for case, scene in scenes.items()}
     fine = {case: simulate(scene.refined()) for case, scene in scenes.items()}
     thinned = {n: {case: cast(Result, Thinned(run, n)) for case, run in fine.items()} for n in THINNED}
-    found = {n: _measures(runs, during) for n, runs in {0: coarse, 1: fine, **thinned}.items()}
-    return {
-        case: _with_errors([coarse[case], fine[case]], {n: each[case] for n, each in found.items()}, during)
-        for case in CASES
-    }
-
-
-def _with_errors(
-    runs: Sequence[Result], values: Mapping[int, Values], during: rise.Watched
-) -> dict[str, list[float]]:
-    """The values of the finer of two runs with their errors: of steps, of records, and of equations.
-
-    The last is the tolerance, by which formulations agree, times the size of what a value is made from.
-
-    values: by how many records there is one that is used; 0: of the coarser run.
-    """
-    result = with_coarser(runs)
-    of_run = {id(run): values[n] for n, run in enumerate(halvings(result))}
-    sizes = {"mean_acceleration": values[1]["speed_middle"] / (during.end - during.start)}
-
-    def of_records(name: str) -> float:
-        missed = sum(peak.missed(result) for peak in extremes(during).get(name, ()))
-        return missed if name == LARGEST else missed + error_of_records(lambda n: values[n][name])
-
-    def measured(name: str) -> list[float]:
-        estimate = result.estimate(lambda run: of_run[id(run)][name])
-        of_equations = TOLERANCE * max(abs(estimate.value), sizes.get(name, 0.0))
-        return [estimate.value, estimate.error + of_records(name) + of_equations]
-
-    return {name: measured(name) for name in values[1]}
+    found = {n: run_measures(runs, during) for n, runs in {0: coarse, 1: fine, **thinned}.items()}
+    data: Data = {}
+    for case in CASES:
+        result = with_coarser([coarse[case], fine[case]])
+        values = {n: each[case] for n, each in found.items()}
+        of_run = {id(run): values[n] for n, run in enumerate(halvings(result))}
+        sizes = {"mean_acceleration": values[1]["speed_middle"] / (during.end - during.start)}
+        data[case] = {}
+        for name in values[1]:
+            estimate = result.estimate(lambda run, of_run=of_run, name=name: of_run[id(run)][name])  # type: ignore[misc]
+            missed = sum(peak.missed(result) for peak in extremes(during).get(name, ()))
+            if name != LARGEST:
+                missed += error_of_records(lambda n, values=values, name=name: values[n][name])  # type: ignore[misc]
+            of_equations = TOLERANCE * max(abs(estimate.value), sizes.get(name, 0.0))
+            data[case][name] = [estimate.value, estimate.error + missed + of_equations]
+    return data
 
 
 def extremes(during: rise.Watched) -> dict[str, tuple[rise.Crest, ...]]:
@@ -142,36 +131,26 @@ def extremes(during: rise.Watched) -> dict[str, tuple[rise.Crest, ...]]:
 
 def evidence(data: Mapping[str, Mapping[str, Sequence[float]]]) -> Evidence:
     """The evidence of the runs, for judging."""
-    return Evidence(
-        {
-            case: {name: Measured(value, error) for name, (value, error) in row.items()}
-            for case, row in data.items()
-        }
-    )
+    return {case: {name: Measured(*pair) for name, pair in row.items()} for case, row in data.items()}
 
 
-def _measures(runs: Mapping[str, Result], during: rise.Watched) -> dict[str, Values]:
+def run_measures(runs: Mapping[str, Result], during: rise.Watched) -> dict[str, Values]:
+    """All measures over the rise by case; forces in N, impulses in N s, angles in degrees, lengths in mm."""
     found = {}
     for case, run in runs.items():
-        found[case] = _run_measures(run, runs[PARTNERS[case]], during)
+        found[case] = _of_run(run, runs[PARTNERS[case]], during)
         if run.impulses:
-            found[case]["impulse"] = _total(run.impulses[0])
+            found[case]["impulse"] = sum(map(abs, run.impulses[0].actuators.values()))
     return found
 
 
-def _total(impulse: Impulse) -> float:
-    """The sum of the magnitudes of all columns' impulses [N s]."""
-    return sum(abs(value) for value in impulse.actuators.values())
-
-
-def _run_measures(run: Result, ideal: Result, during: rise.Watched) -> Values:
-    """All measures of a run over the rise; forces in N, angles in degrees, lengths in mm."""
+def _of_run(run: Result, ideal: Result, during: rise.Watched) -> Values:
     inside = during.in_rise(run)
     time, speed = run.time[inside], rise.DEGREES * run[during.speed][inside]
     found = {
         LARGEST: during.peak(during.force)(run),
         "mean_force": during.mean(run, during.force),
-        "std_force": during.spread(run, during.force),
+        "std_force": during.spread_of(during.force)(run),
         "mean_acceleration": float((speed[-1] - speed[0]) / (time[-1] - time[0])),
         "mean_tip_shift": 1e3 * rise.mean(time, during.departure(run, ideal, "tip.x")),
         "tip_range": 1e3 * float(np.ptp(run["tip.x"][inside])),
@@ -189,7 +168,7 @@ def _run_measures(run: Result, ideal: Result, during: rise.Watched) -> Values:
     found["likeness_tip"] = min(during.likeness(run, ideal, name) for name in ("tip.x", "tip.y"))
     for stage, times in during.stages.items():
         found[f"rms_speed_{stage}"] = rise.DEGREES * during.rms_fluctuation(run, run[during.speed], *times)
-        found[f"speed_{stage}"] = rise.DEGREES * during.stage_mean(run, during.speed, stage)
+        found[f"speed_{stage}"] = during.stage_mean_of(during.speed, stage, rise.DEGREES)(run)
     for side in ("front", "rear"):
         column = f"{side}_column"
         for name, angle in (("angle", rise.rearward_angle), ("lean", rise.lean)):
@@ -211,11 +190,8 @@ class MachineRow(BaseModel):
     failure: str | None
 
 
-Progress = Callable[[Sequence[float]], None]
-
-
 def run_machines(
-    samples: Sequence[Sample], out: Path, workers: int | Workers, progress: Progress
+    samples: Sequence[Sample], out: Path, workers: int | Workers, progress: Callable[[Sequence[float]], None]
 ) -> list[MachineRow]:
     """Rows of all samples, in their order; only those are run that DIR does not hold yet.
 
@@ -232,8 +208,11 @@ def run_machines(
     folder.mkdir(parents=True, exist_ok=True)
     remove_leftovers(folder, older=0.0)
     places = [folder / f"{key(sample)}.json" for sample in samples]
-    rows = [_read(place) for place in places]
-    missing = [n for n, row in enumerate(rows) if row is None]
+    rows: dict[int, MachineRow] = {}
+    for n, place in enumerate(places):
+        with suppress(FileNotFoundError, ValidationError):  # not there, or not whole
+            rows[n] = MachineRow.model_validate_json(contents(place, LARGEST_FILE))
+    missing = [n for n in range(len(samples)) if n not in rows]
     if missing:
         warm_up(with_legs=False)  # compile once, for all processes
 
@@ -242,9 +221,8 @@ def run_machines(
 
         with worker_pool(workers) as pool:
             jobs = [(places[n], samples[n]) for n in missing]
-            for n, row in zip(missing, pool.run(jobs, _run_one, progress, ended), strict=True):
-                rows[n] = row
-    return [row for row in rows if row is not None]
+            rows |= dict(zip(missing, pool.run(jobs, _run_one, progress, ended), strict=True))
+    return [rows[n] for n in range(len(samples))]
 
 
 def key(sample: Sample) -> str:
@@ -264,25 +242,15 @@ def _own_sources() -> str:
 
 def _run_one(number: int, place: Path, sample: Sample) -> MachineRow:
     """In a worker: run a machine and keep it."""
-    del number
     row = MachineRow(sample=dict(sample), measures=None, failure=None)
     try:
-        found = measures(sample)
-        for case, named in found.items():
+        row.measures = measures(sample)
+        for case, named in row.measures.items():
             for name, pair in named.items():
                 if not all(map(math.isfinite, pair)):
                     raise InputError(f"{name} of {case} = {pair}: allowed: finite numbers")
-        row.measures = found
     except (InputError, SimulationError) as error:
-        row.failure = str(error)
+        row.measures, row.failure = None, str(error)
     with whole_file(place) as temporary:
         temporary.write_text(row.model_dump_json() + "\n", encoding="utf-8")
     return row
-
-
-def _read(place: Path) -> MachineRow | None:
-    """A row; None if it is not there or not whole."""
-    try:
-        return MachineRow.model_validate_json(contents(place, LARGEST_FILE))
-    except (FileNotFoundError, ValidationError):
-        return None

@@ -7,10 +7,9 @@ times.
 
 from collections.abc import Sequence
 
-from studies.claims.claim_list import CLAIMS
-from studies.claims.evidence import unit
+from studies.claims.claim_list import CLAIMS, unit
 from studies.claims.figures import figures
-from studies.claims.plausible import CONTACT, FACTORS, LOT, REFERENCE, Sample, samples
+from studies.claims.plausible import CONTACT, FACTORS, LOT, REFERENCE, Choice, samples
 from studies.claims.plausible_runs import CASES, TOLERANCE, MachineRow, evidence, run_machines
 from studies.claims.verdicts import (
     KINDS,
@@ -39,15 +38,9 @@ SEED = 1
 # --- machines ---
 
 
-def is_second(sample: Sample) -> bool:
-    """Whether a machine is of the second hypercube."""
-    return sample[CONTACT] == CYLINDERS
-
-
-def drawn(number: int) -> list[dict[str, str | float]]:
+def drawn(number: int) -> list[dict[str, Choice]]:
     """The reference support, so many machines of the first hypercube, and half as many of the second."""
-    second = samples(-(-number // 2), SEED, second=True)
-    return [REFERENCE, *samples(number, SEED), *second]
+    return [REFERENCE, *samples(number, SEED), *samples(-(-number // 2), SEED, second=True)]
 
 
 def judged(rows: Sequence[MachineRow]) -> list[Ruling]:
@@ -57,17 +50,14 @@ def judged(rows: Sequence[MachineRow]) -> list[Ruling]:
     """
     if rows[0].measures is None:
         raise InputError(f"reference support: {rows[0].failure}")
-    first, second = (known(rows[1:], second=second) for second in (False, True))
-    return [rule(claim, evidence(rows[0].measures), first, second) for claim in CLAIMS]
+    return [rule(claim, evidence(rows[0].measures), *hypercubes(rows)) for claim in CLAIMS]
 
 
-def known(rows: Sequence[MachineRow], *, second: bool) -> Machines:
-    """The machines of one of both hypercubes that could be run."""
-    return [
-        (r.sample, evidence(r.measures))
-        for r in rows
-        if r.measures is not None and is_second(r.sample) == second
-    ]
+def hypercubes(rows: Sequence[MachineRow]) -> tuple[Machines, Machines]:
+    """The machines of both hypercubes that could be run."""
+    ran = [(row.sample, evidence(row.measures)) for row in rows[1:] if row.measures is not None]
+    first = [one for one in ran if one[0][CONTACT] != CYLINDERS]
+    return first, [one for one in ran if one[0][CONTACT] == CYLINDERS]
 
 
 def draw(chosen: Options) -> tuple[list[MachineRow], list[Ruling]]:
@@ -87,97 +77,70 @@ def draw(chosen: Options) -> tuple[list[MachineRow], list[Ruling]]:
 # --- tables ---
 
 
-def verdict_table(rulings: Sequence[Ruling]) -> Sheet:
-    """A row a verdict: how many statements have it, and which."""
-    numbered = list(enumerate(rulings, 1))
-    apart = independent(rulings)
-    rows = []
+def tables(rulings: Sequence[Ruling], rows: Sequence[MachineRow]) -> dict[str, Sheet]:
+    """Verdicts, statements, thresholds, data that are drawn, and machines that could not be run, if any."""
+    numbered, apart = list(enumerate(rulings, 1)), independent(rulings)
+    verdicts = []
     for kind in KINDS:
         which = [n for n, ruling in numbered if ruling.kind == kind]
-        alone = [ruling for ruling in apart if ruling.kind == kind]
         second = sum(ruling.verdict(ruling.second) == kind for ruling in rulings)
-        repeated = "" if kind == NOT_MEASURABLE else str(len(alone))
-        rows.append((kind, str(len(which)), repeated, str(second), ", ".join(map(str, which))))
-    header = ("verdict", "statements", "without repetitions", "second hypercube", "no.")
-    return text_table(header, rows, wide=True)
+        repeated = "" if kind == NOT_MEASURABLE else str(sum(ruling.kind == kind for ruling in apart))
+        verdicts.append((kind, str(len(which)), repeated, str(second), ", ".join(map(str, which))))
 
-
-def claim_table(rulings: Sequence[Ruling]) -> Sheet:
-    """A row a statement."""
-    rows = []
-    for n, ruling in enumerate(rulings, 1):
+    statements, thresholds = [], []
+    for n, ruling in numbered:
         claim = ruling.claim
-        numbers = f"{ruling.ours} (paper: {claim.paper})" if claim.paper else ruling.ours
+        share = "closed form" if claim.stiffness_mm else str(ruling.first)
+        ours = f"{ruling.ours} (paper: {claim.paper})" if claim.paper else ruling.ours
+        error = f"{ruling.error:.0e}" if ruling.error else "0" if claim.is_measurable else ""
         text = f"{claim.text} ({claim.where})"
-        shares = (_share(ruling), str(ruling.second))
-        rows.append((str(n), text, ruling.kind, *shares, numbers, _error(ruling), claim.reading))
-    header = (
-        "no.", "statement (where)", "verdict", "machines", "second hypercube", "reference support (paper)",
-        "error", "read as",
-    )  # fmt: skip
-    return text_table(header, rows, wide=True)
-
-
-def _error(ruling: Ruling) -> str:
-    if ruling.claim.judge is None:
-        return ""
-    return "0" if ruling.error is None else f"{ruling.error:.0e}"
-
-
-def _share(ruling: Ruling) -> str:
-    return "closed form" if ruling.claim.closed_form else str(ruling.first)
-
-
-def threshold_table(rulings: Sequence[Ruling]) -> Sheet:
-    """A row a statement whose judge has a threshold: its share of machines with others."""
-    rows = []
-    for n, ruling in enumerate(rulings, 1):
+        statements.append((str(n), text, ruling.kind, share, str(ruling.second), ours, error, claim.reading))
         if ruling.thresholds:
-            cells = (f"{_threshold(at.threshold)}: {at.counted}, {at.counted.kind}" for at in ruling.thresholds)
-            rows.append((str(n), ruling.claim.name, *cells, "yes" if ruling.hangs else "no"))
-    header = ("no.", "statement", "lower", "middle", "upper", "hangs on it")
-    return text_table(header, rows, wide=True)
+            cells = (
+                f"{100.0 * at:g} %: {counted}, {counted.kind}"
+                if at < 0.5
+                else f"{at:g}: {counted}, {counted.kind}"
+                for at, counted in ruling.thresholds.items()
+            )
+            thresholds.append((str(n), claim.name, *cells, "yes" if ruling.hangs else "no"))
 
-
-def _threshold(value: float) -> str:
-    """A share in per cent; a correlation as it is."""
-    return f"{100.0 * value:g} %" if value < 0.5 else f"{value:g}"
-
-
-def factor_table() -> Sheet:
-    """The data that are drawn."""
-    rows = []
+    factors = []
     for factor in FACTORS:
-        first, second = (factor.span(second=second) for second in (False, True))
-        assumed = REFERENCE[factor.name]
-        shown = assumed if isinstance(assumed, str) else f"{assumed:g}"
-        rows.append(
-            (factor.label, factor.meaning, first, "" if first == second else second, shown, factor.reason)
-        )
-    header = ("datum", "meaning", "first hypercube", "second, if not alike", "reference support", "reason")
-    return text_table(header, rows, wide=True)
+        first_span, second_span = factor.span(second=False), factor.span(second=True)
+        reference = REFERENCE[factor.name]
+        shown = reference if isinstance(reference, str) else f"{reference:g}"
+        differing = "" if first_span == second_span else second_span
+        factors.append((factor.label, factor.meaning, first_span, differing, shown, factor.reason))
 
-
-def failure_table(rows: Sequence[MachineRow]) -> Sheet:
-    """Machines that could not be run."""
-    failed = tuple(
+    failures = [
         (str(n), f"{row.sample['scale']:.3g}", f"{row.sample['start_height']:.3g}", row.failure)
         for n, row in enumerate(rows)
         if row.failure is not None
-    )
-    return text_table(("machine", "scale", "start height", "reason"), failed, wide=True)
-
-
-def tables(rulings: Sequence[Ruling], rows: Sequence[MachineRow]) -> dict[str, Sheet]:
-    """All tables by name; that of failures only if there are some."""
+    ]
     found = {
-        "verdicts": verdict_table(rulings),
-        "table": claim_table(rulings),
-        "thresholds": threshold_table(rulings),
-        "factors": factor_table(),
+        "verdicts": (
+            ("verdict", "statements", "without repetitions", "second hypercube", "no."),
+            verdicts,
+        ),
+        "table": (
+            (
+                "no.", "statement (where)", "verdict", "machines", "second hypercube",
+                "reference support (paper)", "error", "read as",
+            ),
+            statements,
+        ),
+        "thresholds": (("no.", "statement", "lower", "middle", "upper", "hangs on it"), thresholds),
+        "factors": (
+            ("datum", "meaning", "first hypercube", "second, if not alike", "reference support", "reason"),
+            factors,
+        ),
+        "failures": (("machine", "scale", "start height", "reason"), failures),
+    }  # fmt: skip
+    return {
+        name: text_table(header, rows_of, wide=True)
+        for name, (header, rows_of) in found.items()
+        if rows_of or name != "failures"
     }
-    failures = failure_table(rows)
-    return found | {"failures": failures} if failures.rows else found
 
 
 # --- numbers and words ---
@@ -185,46 +148,37 @@ def tables(rulings: Sequence[Ruling], rows: Sequence[MachineRow]) -> dict[str, S
 
 def measure(rulings: Sequence[Ruling], rows: Sequence[MachineRow]) -> list[Number]:
     """Verdicts, shares with their uncertainty, and the reference support's measures with numerical errors."""
-    left = float(sum(ruling.kind == NEEDS_MORE for ruling in rulings))  # which more machines may put elsewhere
-    numbers = [
-        Number("plausible_machines", case, float(len(known(rows[1:], second=second))), "1", 0.0)
-        for case, second in (("first hypercube", False), ("second hypercube", True))
-    ]
-    numbers += [
-        Number("plausible_machines", "failed", float(sum(row.measures is None for row in rows)), "1", 0.0),
-        Number("claims", "all", float(len(rulings)), "1", 0.0),
-    ]
+    first, second = hypercubes(rows)
+    left = sum(ruling.kind == NEEDS_MORE for ruling in rulings)  # which more machines may put elsewhere
+    counts = {
+        ("plausible_machines", "first hypercube"): (len(first), 0),
+        ("plausible_machines", "second hypercube"): (len(second), 0),
+        ("plausible_machines", "failed"): (sum(row.measures is None for row in rows), 0),
+        ("claims", "all"): (len(rulings), 0),
+    }
     for case, those in (("", rulings), (", without repetitions", independent(rulings))):
         for kind in KINDS:
-            of_kind = float(sum(ruling.kind == kind for ruling in those))
-            numbers.append(Number("claims", f"{kind}{case}", of_kind, "1", left))
-    for name, second in (("share_of_machines", False), ("share_of_second_hypercube", True)):
-        for n, ruling in enumerate(rulings, 1):
-            counted = ruling.second if second else ruling.first
-            if counted.share is not None:
-                low, high = counted.interval
-                error = max(high - counted.share, counted.share - low)
-                numbers.append(Number(name, f"claim {n}", counted.share, "1", error))
-    for case, row in evidence(rows[0].measures or {}).measures.items():
+            counts["claims", f"{kind}{case}"] = sum(ruling.kind == kind for ruling in those), left
+    numbers = [Number(name, case, float(n), "1", float(error)) for (name, case), (n, error) in counts.items()]
+    shares = {
+        "share_of_machines": [ruling.first for ruling in rulings],
+        "share_of_second_hypercube": [ruling.second for ruling in rulings],
+    }
+    for name, counted in shares.items():
+        for n, one in enumerate(counted, 1):
+            if one.share is not None:
+                low, high = one.interval
+                error = max(high - one.share, one.share - low)
+                numbers.append(Number(name, f"claim {n}", one.share, "1", error))
+    for case, row in evidence(rows[0].measures or {}).items():
         numbers += [Number(name, case, m.value, unit(name) or "1", m.error) for name, m in row.items()]
     return numbers
 
 
-def judged_claims(rulings: Sequence[Ruling]) -> tuple[JudgedClaim, ...]:
-    """All statements with verdict, reason, and what shows it."""
-    numbers = {ruling.claim.name: n for n, ruling in enumerate(rulings, 1)}
-    return tuple(
-        JudgedClaim(
-            str(n), r.claim.where, r.claim.text, r.kind, _why(r, numbers), r.claim.figure, r.claim.shown_in
-        )
-        for n, r in enumerate(rulings, 1)
-    )
-
-
-def _why(ruling: Ruling, numbers: dict[str, int]) -> str:
-    """The reason for a verdict, in a few sentences with numbers."""
+def why(ruling: Ruling, numbers: dict[str, int]) -> str:
+    """The reason for a verdict, in a few sentences with numbers; numbers: of statements by their names."""
     claim, first = ruling.claim, ruling.first
-    if claim.judge is None:
+    if not claim.is_measurable:
         reason = claim.reading.removeprefix(f"{NOT_MEASURABLE}: ")
         return f"{reason[0].upper()}{reason[1:]}."
     parts = []
@@ -244,23 +198,24 @@ def _why(ruling: Ruling, numbers: dict[str, int]) -> str:
     return "".join(f"{part}. " for part in parts).rstrip()
 
 
-def words(rulings: Sequence[Ruling], rows: Sequence[MachineRow]) -> dict[str, object]:
-    """The numbers of the sentences."""
-    numbered = list(enumerate(rulings, 1))
-    apart = independent(rulings)
-    return {
-        "first": len(known(rows[1:], second=False)),
-        "second": len(known(rows[1:], second=True)),
+def work(chosen: Options) -> StudyOutcome:
+    """The machines of both hypercubes and the reference support, and the verdicts on all statements."""
+    rows, rulings = draw(chosen)
+    first, second = hypercubes(rows)
+    numbered, apart = list(enumerate(rulings, 1)), independent(rulings)
+    places = {ruling.claim.name: n for n, ruling in numbered}
+    words = {
+        "first": len(first),
+        "second": len(second),
         "failed": sum(row.measures is None for row in rows),
-        "factors": len(FACTORS),
         "cases": len(CASES),
         "tolerance": TOLERANCE,
         "statements": len(rulings),
         "kinds": {kind: [n for n, ruling in numbered if ruling.kind == kind] for kind in KINDS},
         "independent": len(apart),
         "independent_holds": sum(ruling.kind == KINDS[0] for ruling in apart),
-        "repeated": [(n, r.claim.follows_from) for n, r in numbered if r.claim.follows_from],
-        "undecided": [n for n, r in numbered if r.kind == NOT_MEASURABLE and r.claim.judge is not None],
+        "repeated": [n for n, r in numbered if r.claim.follows_from],
+        "undecided": [n for n, r in numbered if r.kind == NOT_MEASURABLE and r.claim.is_measurable],
         "hanging": [n for n, ruling in numbered if ruling.hangs],
         "differs": [n for n, ruling in numbered if ruling.differs],
         "messages": {
@@ -268,17 +223,14 @@ def words(rulings: Sequence[Ruling], rows: Sequence[MachineRow]) -> dict[str, ob
         },
         "named": {r.claim.name: str(r.first) for r in rulings if r.claim.name},
     }
-
-
-def work(chosen: Options) -> StudyOutcome:
-    """The machines of both hypercubes and the reference support, and the verdicts on all statements."""
-    rows, rulings = draw(chosen)
-    first, second = (known(rows[1:], second=second) for second in (False, True))
+    claims = [
+        JudgedClaim(
+            str(n), r.claim.where, r.claim.text, r.kind, why(r, places), r.claim.figure, r.claim.shown_in
+        )
+        for n, r in numbered
+    ]
     drawings = figures(rulings, evidence(rows[0].measures or {}), first, second)
-    sheets = tables(rulings, rows)
-    return StudyOutcome(
-        measure(rulings, rows), words(rulings, rows), drawings, sheets, claims=judged_claims(rulings)
-    )
+    return StudyOutcome(measure(rulings, rows), words, drawings, tables(rulings, rows), claims=claims)
 
 
 study = Study("claims", __doc__, work, seconds=70.0)

@@ -5,16 +5,15 @@ that share is at most 5 %, and holds in part if the share is between both. Undec
 numerical error exceeds what is compared, may be of either kind: the interval of the share covers both.
 """
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
 
-from studies.claims.claim_list import Claim, Judge, Stiffness, Varied
-from studies.claims.evidence import Evidence, NotedEvidence, Verdict
+from studies.claims.claim_list import Claim, stiffnesses
+from studies.claims.evidence import Evidence, Verdict
 from studies.claims.plausible import FACTORS, Factor, Sample
-from studies.claims.plausible_runs import CLEARANCES
 
 HOLDS, IN_PART, FAILS, NEEDS_MORE, NOT_MEASURABLE = KINDS = (
     "holds", "in part", "fails", "needs more machines", "not measurable",
@@ -22,6 +21,7 @@ HOLDS, IN_PART, FAILS, NEEDS_MORE, NOT_MEASURABLE = KINDS = (
 NEARLY_ALL = 0.95  # share of the machines from which a statement holds; up to one less this it fails
 BOUNDS = (1.0 - NEARLY_ALL, NEARLY_ALL)
 CONFIDENCE = 0.95
+CHANCE = 0.01  # how often chance alone would part machines so by any of the data, if a datum is named
 
 Machines = Sequence[tuple[Sample, Evidence]]
 
@@ -71,21 +71,14 @@ class Count(NamedTuple):
 NO_MACHINES = Count()
 
 
-class AtThreshold(NamedTuple):
-    """How machines judge a statement with a threshold."""
-
-    threshold: float
-    counted: Count
-
-
 @dataclass(frozen=True)
 class Ruling:
     """A statement and its verdict.
 
     reference: on the reference support. first, second: the machines of both hypercubes. ours: our numbers on
     the reference support. error: the largest numerical error of these numbers, as a share of the number; None
-    for closed forms and where nothing is measured. thresholds: the first hypercube with other thresholds, if
-    the judge has one. depends: the datum on which the verdict depends most, empty if on none beyond chance.
+    for closed forms and where nothing is measured. thresholds: the first hypercube by other thresholds.
+    depends: the datum on which the verdict depends most, empty if on none beyond chance.
     """
 
     claim: Claim
@@ -94,7 +87,7 @@ class Ruling:
     second: Count = NO_MACHINES
     ours: str = ""
     error: float | None = None
-    thresholds: tuple[AtThreshold, ...] = ()
+    thresholds: Mapping[float, Count] = field(default_factory=dict)
     depends: str = ""
 
     @property
@@ -104,16 +97,16 @@ class Ruling:
 
     def verdict(self, count: Count) -> str:
         """The verdict on the machines of a hypercube: one entry of KINDS."""
-        if self.claim.judge is None:
+        if self.claim.judge is not None:
+            return count.kind
+        if not self.claim.is_measurable:
             return NOT_MEASURABLE
-        if self.claim.closed_form:
-            return HOLDS if self.reference else FAILS
-        return count.kind
+        return HOLDS if self.reference else FAILS
 
     @property
     def hangs(self) -> bool:
         """Whether another threshold makes it another verdict, and not for want of machines."""
-        return len({at.counted.kind for at in self.thresholds} - {NEEDS_MORE, NOT_MEASURABLE}) > 1
+        return len({count.kind for count in self.thresholds.values()} - {NEEDS_MORE, NOT_MEASURABLE}) > 1
 
     @property
     def differs(self) -> bool:
@@ -132,32 +125,29 @@ def wilson(holds: int, machines: int) -> tuple[float, float]:
     return float(interval.low), float(interval.high)
 
 
-def count(judge: Judge, machines: Machines) -> Count:
-    """How many machines judge in which way."""
-    verdicts = [judge(evidence) for _, evidence in machines]
-    return Count(*(sum(verdict is kind for verdict in verdicts) for kind in (True, False, None)))
-
-
 def rule(claim: Claim, reference: Evidence, first: Machines, second: Machines = ()) -> Ruling:
     """Judge a statement on the reference support and on the machines of both hypercubes."""
     judge = claim.judge
     if judge is None:
-        return Ruling(claim)
-    if isinstance(judge, Stiffness):
-        return Ruling(claim, judge(reference), ours=str(judge))
-    noted = NotedEvidence(reference.measures)
-    ours = judge(noted)
+        if not claim.is_measurable:
+            return Ruling(claim)
+        same, ours = stiffnesses(claim)
+        return Ruling(claim, same, ours=ours)
+
+    def count(verdict_of: Callable[[Evidence], Verdict], machines: Machines) -> Count:
+        verdicts = [verdict_of(evidence) for _, evidence in machines]
+        return Count(*(sum(verdict is kind for verdict in verdicts) for kind in (True, False, None)))
+
     counted = count(judge, first)
     decided = [(sample, verdict) for sample, e in first if (verdict := judge(e)) is not None]
-    shown = judge.shown if isinstance(judge, Varied) else ()
     return Ruling(
         claim,
-        ours,
+        judge(reference),
         counted,
         count(judge, second),
-        noted.describe(CLEARANCES),
-        noted.largest_error,
-        tuple(AtThreshold(at, count(judge.at(at), first)) for at in shown if isinstance(judge, Varied)),
+        judge.describe(reference),
+        judge.largest_error(reference),
+        {at: count(lambda e, at=at: judge(e, at), first) for at in judge.shown},  # type: ignore[misc]
         dependence(decided) if counted.kind == IN_PART else "",
     )
 
@@ -165,20 +155,14 @@ def rule(claim: Claim, reference: Evidence, first: Machines, second: Machines = 
 def independent(rulings: Sequence[Ruling]) -> list[Ruling]:
     """The measurable statements without those that follow from another statement with the same verdict."""
     kinds = {ruling.claim.name: ruling.kind for ruling in rulings}
-    return [
-        ruling
-        for ruling in rulings
-        if ruling.kind != NOT_MEASURABLE and kinds.get(ruling.claim.follows_from) != ruling.kind
-    ]
+    measurable = [ruling for ruling in rulings if ruling.kind != NOT_MEASURABLE]
+    return [ruling for ruling in measurable if kinds.get(ruling.claim.follows_from) != ruling.kind]
 
 
 def percent(share: float) -> str:
     """A share in per cent, not rounded onto the bounds that decide."""
     text = f"{100.0 * share:.0f}"
     return f"{100.0 * share:.1f}" if any(abs(float(text) - 100.0 * bound) < 0.5 for bound in BOUNDS) else text
-
-
-CHANCE = 0.01  # how often chance alone would part machines so by any of the data, if a datum is named
 
 
 def dependence(decided: Sequence[tuple[Sample, bool]]) -> str:
@@ -190,21 +174,21 @@ def dependence(decided: Sequence[tuple[Sample, bool]]) -> str:
 def _split(factor: Factor, decided: Sequence[tuple[Sample, bool]]) -> tuple[float, str]:
     """How often chance alone would part the machines so by a datum, and the shares of the parts in words.
 
-    By its choices, or by the median; by Pearson's test of independence.
+    The parts are those of its choices, or of both sides of the median; Pearson's test of independence.
     """
     from scipy.stats import chi2_contingency  # takes a second to import
 
-    values = [sample[factor.name] for sample, _ in decided]
+    values = np.array([sample[factor.name] for sample, _ in decided])
     if factor.choices:
-        parts = {factor.chosen(choice): [value == choice for value in values] for choice in factor.choices}
+        parts = {factor.phrase.format(choice): values == choice for choice in factor.choices}
     else:
-        middle = float(np.median(np.array(values, dtype=float)))
-        below = [float(value) < middle for value in values]
-        parts = {factor.bound("below", middle): below, factor.bound("above", middle): [not x for x in below]}
+        middle = float(np.median(values))
+        bound = f"{factor.label} {{}} {middle:.3g} {factor.unit}".rstrip()
+        parts = {bound.format("below"): values < middle, bound.format("above"): values >= middle}
     holds = np.array([verdict for _, verdict in decided])
-    counts = np.array([[np.sum(holds[part]), np.sum(~holds[part])] for part in map(np.array, parts.values())])
+    counts = np.array([[np.sum(holds & part), np.sum(~holds & part)] for part in parts.values()])
     if not (counts.any(axis=0).all() and counts.any(axis=1).all()):
         return 1.0, ""
-    shares = counts[:, 0] / counts.sum(axis=1)
-    text = ", ".join(f"{part} {100.0 * share:.0f} %" for part, share in zip(parts, shares, strict=True))
+    shares = 100.0 * counts[:, 0] / counts.sum(axis=1)
+    text = ", ".join(f"{part} {share:.0f} %" for part, share in zip(parts, shares, strict=True))
     return float(chi2_contingency(counts).pvalue), text

@@ -184,10 +184,6 @@ class Watched:
         inside = self.in_rise(run)
         return mean(run.time[inside], quantity[inside])
 
-    def spread(self, run: MeasuredRun, channel: str) -> float:
-        """Standard deviation of a channel over the motion's time, in its unit."""
-        return run.window(channel, self.start, self.end).std
-
     def rms_fluctuation(
         self, run: MeasuredRun, values: Series, begin: float | None = None, end: float | None = None
     ) -> float:
@@ -214,11 +210,6 @@ class Watched:
         result[rise] = trend(run, values[rise], self.window)
         return result
 
-    def stage_mean(self, run: MeasuredRun, channel: str, stage: str) -> float:
-        """Mean magnitude of a channel over a stage of the rise, in its unit."""
-        inside = between(run, *self.stages[stage])
-        return mean(run.time[inside], np.abs(run[channel][inside]))
-
     def departure(self, run: MeasuredRun, ideal: MeasuredRun, channel: str) -> Series:
         """A channel less that of the ideal pin, record by record over the rise."""
         return run[channel][self.in_rise(run)] - ideal[channel][self.in_rise(ideal)]
@@ -231,7 +222,16 @@ class Watched:
 
     def spread_of(self, channel: str, scale: float = 1.0) -> Measure:
         """The measure of a channel's standard deviation over the motion."""
-        return lambda run: scale * self.spread(run, channel)
+        return lambda run: scale * run.window(channel, self.start, self.end).std
+
+    def stage_mean_of(self, channel: str, stage: str, scale: float = 1.0) -> Measure:
+        """The measure of a channel's mean magnitude over a stage of the motion."""
+
+        def get(run: MeasuredRun) -> float:
+            inside = between(run, *self.stages[stage])
+            return scale * mean(run.time[inside], np.abs(run[channel][inside]))
+
+        return get
 
     def fluctuation_of(self, channel: str, scale: float = 1.0, *times: float) -> Measure:
         """The measure of a channel's fluctuation; times: from when to when [s], see `rms_fluctuation`."""

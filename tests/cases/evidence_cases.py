@@ -76,19 +76,12 @@ def wrong() -> Evidence:
 
 def blurred(evidence: Evidence, error: float = 1e9) -> Evidence:
     """The same numbers, of which nothing is known."""
-    return Evidence(
-        {
-            case: {name: Measured(m.value, error) for name, m in row.items()}
-            for case, row in evidence.measures.items()
-        }
-    )
+    return {case: {name: Measured(m.value, error) for name, m in row.items()} for case, row in evidence.items()}
 
 
 def data(evidence: Evidence) -> dict[str, dict[str, list[float]]]:
     """As a row of the hypercube keeps it."""
-    return {
-        case: {name: [m.value, m.error] for name, m in row.items()} for case, row in evidence.measures.items()
-    }
+    return {case: {name: [m.value, m.error] for name, m in row.items()} for case, row in evidence.items()}
 
 
 def _empty() -> Values:
@@ -107,4 +100,4 @@ def _loose(
 
 
 def _evidence(found: Mapping[str, Mapping[str, float]]) -> Evidence:
-    return Evidence({case: {name: Measured(x) for name, x in row.items()} for case, row in found.items()})
+    return {case: {name: Measured(x) for name, x in row.items()} for case, row in found.items()}

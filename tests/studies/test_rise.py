@@ -95,16 +95,8 @@ def test_the_same_course_is_alike_whatever_its_size_and_shaking() -> None:
 def test_the_mean_of_a_stage_is_of_magnitudes(stage: str) -> None:
     begin, end = rise.STAGES[stage]
     run = Record(courses={"x": lambda t: -2.0 * t, "y": lambda t: np.sign(t - 0.5 * (begin + end) + 1e-6)})
-    assert rise.PAPER.stage_mean(run, "x", stage) == pytest.approx(begin + end, rel=1e-12)  # rounding
-    assert rise.PAPER.stage_mean(run, "y", stage) == 1.0
-
-
-def test_a_departure_is_taken_record_by_record_in_the_rise() -> None:
-    with_clearance = Record(courses={"x": lambda t: np.where(t < 3.0, 99.0, t**2)})
-    ideal = Record(courses={"x": lambda t: np.where(t < 3.0, -1.0, t)})
-    rising = rise.PAPER.departure(with_clearance, ideal, "x")
-    time = np.linspace(3.0, 5.0, 2001)
-    np.testing.assert_allclose(rising, time**2 - time, rtol=1e-12)  # rounding of the times
+    assert rise.PAPER.stage_mean_of("x", stage)(run) == pytest.approx(begin + end, rel=1e-12)  # rounding
+    assert rise.PAPER.stage_mean_of("y", stage)(run) == 1.0
 
 
 def test_angles_are_those_of_figure_12() -> None:
