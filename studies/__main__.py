@@ -6,16 +6,17 @@ import traceback
 from collections.abc import Sequence
 from contextlib import nullcontext
 from dataclasses import replace
+from pathlib import Path
 
 from studies.adams import run as adams
 from studies.benchmarking import trade
 from studies.catalogue import DEFAULT, STUDIES
 from studies.common.options import Options, OptionWords
-from studies.common.study import Study, output_folder, say_short
+from studies.common.study import Study, output_folder, say_short, work_in_folder
 from studies.common.witness import compiling
 from studies.report import rebuild
 from studies.reporting.arranged import PAGE
-from support_exudyn.commands.command_line import answered, carry_out, new_app, say, warn
+from support_exudyn.commands.command_line import carry_out, new_app, say, warn
 from support_exudyn.simulation.at_start import EXIT_CODE
 from support_exudyn.sweeps.workers import Workers, worker_pool
 from user_forces.values.value import InputError, short
@@ -102,7 +103,7 @@ def _run(names: Sequence[str], options: Options, pool: Workers) -> int:
             warn(f"study {n + 1} of {len(names)}: {name}; {spent} so far, about {left} to go")
             if _code_of(STUDIES[name], options.of_study(name, pool)):
                 failed.append(name)
-            elif rebuild(options.out, list(STUDIES)):
+            elif rebuild(options.out):
                 failed.append(f"report after {name}")
             else:
                 written = True
@@ -117,12 +118,11 @@ def _run(names: Sequence[str], options: Options, pool: Workers) -> int:
 def _code_of(study: Study, options: Options) -> int:
     """Run a study and print its answer. Returns the exit code; an interruption ends all studies."""
 
-    def work() -> None:
-        with output_folder(options.out):
-            say_short(study(options), options.out)
+    def work(out: Path) -> None:
+        say_short(study(options), out)
 
     try:
-        code = answered(work)
+        code = work_in_folder(work, options.out)
     except Exception:  # a bug in one study; the others are still worth having
         traceback.print_exc()
         return 1

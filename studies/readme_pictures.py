@@ -6,11 +6,10 @@
 import os
 import sys
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
-from functools import cached_property
+from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Annotated
+from typing import Annotated, Any
 
 from matplotlib.figure import Figure
 from PIL import Image
@@ -40,68 +39,48 @@ MOVIE_RATE = 10.0  # frames a second
 MOVIE_SPEED = 2.0  # so many times as fast as the run
 
 
-@dataclass(frozen=True)
-class Runs:
-    """The runs that pictures are made of, made when the first one asks.
-
-    workers: number of processes.
-    """
-
-    workers: int
-
-    @cached_property
-    def paper(self) -> Mapping[str, Result]:
-        """The cases of `clearance_influence` at its steps."""
-        return run_cases(clearance.influence_cases(), Options(Path(), self.workers))
-
-    @property
-    def with_clearance(self) -> Result:
-        """The rise with 1.5 mm in the rear pin, with friction."""
-        return self.paper[influence_figures.DRY]
+@cache
+def paper(workers: int) -> Mapping[str, Result]:
+    """The cases of `clearance_influence` at its steps, run when the first picture asks; workers: processes."""
+    return run_cases(clearance.influence_cases(), Options(Path(), workers))
 
 
-def machine(runs: Runs, path: Path) -> None:
+def with_clearance(workers: int) -> Result:
+    """The rise with 1.5 mm in the rear pin, with friction."""
+    return paper(workers)[influence_figures.DRY]
+
+
+def machine(workers: int, path: Path) -> None:
     """The support in mid-rise."""
-    picture = Image.fromarray(still(runs.with_clearance, MIDDLE))
     with whole_file(path) as temporary:
-        picture.save(temporary, format="PNG", optimize=True)
+        Image.fromarray(still(with_clearance(workers), MIDDLE)).save(temporary, format="PNG", optimize=True)
 
 
-def movie(runs: Runs, path: Path) -> None:
+def movie(workers: int, path: Path) -> None:
     """The whole run as a movie."""
+    how: dict[str, Any] = {"frames_per_second": MOVIE_RATE, "speed": MOVIE_SPEED, "size": MOVIE_SIZE}
     with TemporaryDirectory() as frames:
-        render(
-            runs.with_clearance,
-            Path(frames) / "frames",
-            frames_per_second=MOVIE_RATE,
-            speed=MOVIE_SPEED,
-            size=MOVIE_SIZE,
-            movie_path=path,
-        )
+        render(with_clearance(workers), Path(frames) / "frames", **how, movie_path=path)
 
 
-def map_step_stiffness(runs: Runs) -> Figure:
+def map_step_stiffness(workers: int) -> Figure:
     """The map of `extremes` by step and stiffness: 169 of its scenes."""
     found = [case for case in mapped() if case.group == STEP_STIFFNESS]
-    verdicts = judge_all(found, runs.workers)
+    verdicts = judge_all(found, workers)
     return extremes_figures.figures(list(zip(found, verdicts, strict=True)))["map_step_stiffness"]
 
 
-def drawn(figure: Callable[[Runs], Figure]) -> Callable[[Runs, Path], None]:
+def drawn(figure: Callable[[int], Figure]) -> Callable[[int, Path], None]:
     """The function that writes a figure of the runs."""
-
-    def write(runs: Runs, path: Path) -> None:
-        style.save(figure(runs), path.parent, path.stem, pdf=False)
-
-    return write
+    return lambda workers, path: style.save(figure(workers), path.parent, path.stem, pdf=False)
 
 
-PICTURES: dict[str, Callable[[Runs, Path], None]] = {
+PICTURES: dict[str, Callable[[int, Path], None]] = {  # with how many processes, into which file
     "machine.png": machine,
     "rise.gif": movie,
-    "pin_force.png": drawn(lambda runs: influence_figures.influence_figures(runs.paper)["fig5_pin_force"]),
-    "journal_orbit.png": drawn(lambda runs: orbit(runs.with_clearance, paper_machine.CLEARANCE_PIN)),
-    "spectrum.png": drawn(lambda runs: force_spectrum(runs.with_clearance, paper_machine.CLEARANCE_PIN, *RISE)),
+    "pin_force.png": drawn(lambda n: influence_figures.influence_figures(paper(n))["fig5_pin_force"]),
+    "journal_orbit.png": drawn(lambda n: orbit(with_clearance(n), paper_machine.CLEARANCE_PIN)),
+    "spectrum.png": drawn(lambda n: force_spectrum(with_clearance(n), paper_machine.CLEARANCE_PIN, *RISE)),
     "map_step_stiffness.png": drawn(map_step_stiffness),
 }
 
@@ -121,11 +100,10 @@ def draw(
         out: Folder (studies/pictures).
         workers: Processes (all cores).
     """
-    runs = Runs(workers)
     with output_folder(out), style.look():
         for name in names or PICTURES:
             warn(str(out / name))
-            PICTURES[name](runs, out / name)
+            PICTURES[name](workers, out / name)
 
 
 def main(argv: Sequence[str] | None = None) -> int:

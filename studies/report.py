@@ -17,43 +17,25 @@ from support_exudyn.files.whole_file import whole_file
 from user_forces.values.value import InputError
 
 
-def write_report(out: Path, sections: Sequence[ReportSection]) -> Path:
-    """Write report.html and appendix.html into `out`, both whole or none; returns the path of the first.
+def rebuild(out: Path) -> int:
+    """Write report.html and appendix.html from the folders below `out`, both whole or none.
 
-    Arguments:
-        out: folder; links to files of the studies are relative to it.
-        sections: in the order in which they are to be read.
-
-    Raises InputError or OSError; the files are then as they were before.
+    Studies stand in the order of the catalogue, others behind them by name. Errors are printed. Returns the
+    exit code.
     """
-    there = [section.chapter.study for section in sections]
-    own = any(section.chapter.machine for section in sections)
-    missing = [name for name in STUDIES if name not in there and (STUDIES[name].own_machine or not own)]
-    waited = [name for name in missing if name in DEFAULT]
-    others = {name: STUDIES[name].question for name in missing if name not in DEFAULT}
-    with ExitStack() as files:
-        for name, written in pages(out, sections, waited, others).items():
-            temporary = files.enter_context(whole_file(out / name))
-            temporary.write_text(written, encoding="utf-8")
-    return out / PAGE
-
-
-def sections(out: Path, order: Sequence[str]) -> list[ReportSection]:
-    """Chapters of all studies in the folders below `out`: those of `order` first, then others by name.
-
-    Raises InputError if there is none, or if a chapter cannot be read.
-    """
-    there = sorted(path.parent.name for path in out.glob(f"*/{FILE}"))
-    if not there:
-        raise InputError(f"{out}: no folder with a {FILE} in it; run python -m studies first")
-    names = [name for name in order if name in there] + [name for name in there if name not in order]
-    return [ReportSection.load(out / name) for name in names]
-
-
-def rebuild(out: Path, order: Sequence[str]) -> int:
-    """Write the report from the folders below `out`; errors are printed. Returns the exit code."""
     try:
-        write_report(out, sections(out, order))
+        there = sorted(path.parent.name for path in out.glob(f"*/{FILE}"))
+        if not there:
+            raise InputError(f"{out}: no folder with a {FILE} in it; run python -m studies first")
+        names = [name for name in STUDIES if name in there] + [name for name in there if name not in STUDIES]
+        sections = [ReportSection.load(out / name) for name in names]
+        own = any(section.chapter.machine for section in sections)
+        missing = {n: one for n, one in STUDIES.items() if n not in there and (one.own_machine or not own)}
+        waited = [name for name in missing if name in DEFAULT]
+        others = {name: one.question for name, one in missing.items() if name not in DEFAULT}
+        with ExitStack() as files:
+            for name, written in pages(out, sections, waited, others).items():
+                files.enter_context(whole_file(out / name)).write_text(written, encoding="utf-8")
     except (InputError, OSError) as error:
         warn(f"error: {error}")
         return 1
@@ -75,7 +57,7 @@ def report(*, out: Path = Path("results")) -> int:
     Args:
         out: Folder of results (results).
     """
-    code = rebuild(out, list(STUDIES))
+    code = rebuild(out)
     if not code:
         say(out / PAGE)
     return code

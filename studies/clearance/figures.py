@@ -109,15 +109,23 @@ def influence_figures(results: Results) -> dict[str, Figure]:
 
 
 def split_figure(results: Results, channel: str, scale: float, label: str) -> Figure:
-    """The whole run with friction and without, a panel each so that no peak hides another, and the rise."""
+    """The whole run with friction and without, a panel each so that no peak hides another, and the rise.
+
+    The largest value stands at its peak: of the force that of any step, which tables print, too.
+    """
     drawing = Figure(figsize=style.size(170, 115))
     panels = drawing.subplot_mosaic([["dry", "smooth"], ["rise", "rise"]])
-    curve, whole = _of(channel, scale), [panels["dry"], panels["smooth"]]
+    curve, whole, unit = _of(channel, scale), [panels["dry"], panels["smooth"]], label.partition("[")[2][:-1]
     for axes, case in zip(whole, (DRY, SMOOTH), strict=True):
-        _draw(
-            axes, results, [one for one in INFLUENCE if one.case in (case, ideal_of(case))], curve, (0.0, 5.0)
-        )
-        _mark_peak(axes, results[case], channel, scale, label)
+        run, looks = results[case], [one for one in INFLUENCE if one.case in (case, ideal_of(case))]
+        _draw(axes, results, looks, curve, (0.0, rise.END))
+        values = curve(run)
+        n = int(abs(values).argmax())
+        peak = scale * run.largest_force[CLEARANCE_PIN] if channel == rise.FORCE else values[n]
+        axes.annotate(
+            f"{peak:.0f} {unit}", (run.time[n], values[n]), (8.0, 0.0), textcoords="offset points", fontsize=8,
+            va="center", arrowprops={"arrowstyle": "-", "lw": 0.5},
+        )  # fmt: skip
     low, high = min(axes.get_ylim()[0] for axes in whole), max(axes.get_ylim()[1] for axes in whole)
     for axes in whole:
         axes.set_ylim(low, high + 0.08 * (high - low))
@@ -127,18 +135,6 @@ def split_figure(results: Results, channel: str, scale: float, label: str) -> Fi
     for axes in panels.values():
         axes.set_ylabel(label)
     return finish(drawing, list(panels.values()), 2, panels["rise"])
-
-
-def _mark_peak(axes: Axes, run: Result, channel: str, scale: float, label: str) -> None:
-    """The largest value with its number: of the force that of any step, which tables print, too."""
-    values = scale * run[channel]
-    n = int(abs(values).argmax())
-    unit = label[label.index("[") + 1 : label.index("]")]
-    peak = scale * run.largest_force[CLEARANCE_PIN] if channel == rise.FORCE else values[n]
-    axes.annotate(
-        f"{peak:.0f} {unit}", (run.time[n], values[n]), (8.0, 0.0), textcoords="offset points", fontsize=8,
-        va="center", arrowprops={"arrowstyle": "-", "lw": 0.5},
-    )  # fmt: skip
 
 
 def window_figure(
@@ -168,38 +164,31 @@ def window_figure(
 def size_figures(subject: Subject, results: Results, found: Found) -> dict[str, Figure]:
     """All figures that this machine has something for, by file name; the names are those of the paper's."""
     watched, channels = subject.watched, results[ideal_name(0.0)].channels
-    motion, acceleration = (watched.start, watched.end), "angular acceleration [deg/s²]"
+    acceleration = _of(watched.acceleration, DEGREES), "angular acceleration [deg/s²]"
+    force, motion = (_of(watched.force, 1e-3), "pin force [kN]"), (watched.start, watched.end)
     drawings = {
         "trends_with_clearance": trend_figure(subject, found),
         "fig6_angular_velocity": window_figure(results, _sizes(subject), watched, motion),
-        "fig7_angular_acceleration": panel_figure(
-            subject, results, watched.acceleration, DEGREES, acceleration
-        ),
-        "fig8_pin_force": panel_figure(subject, results, watched.force, 1e-3, "pin force [kN]"),
+        "fig7_angular_acceleration": panel_figure(subject, results, *acceleration),
+        "fig8_pin_force": panel_figure(subject, results, *force),
     }
     if "tip.x" in channels:
+        tip = {("tip, horizontal [mm]", "shift of the tip [mm]"): _of("tip.x", 1e3)}
         drawings["fig9_tip_path"] = tip_path_figure(subject, results)
-        tip = _of("tip.x", 1e3)
-        drawings["fig10_tip_shift"] = change_figure(
-            subject, results, {("tip, horizontal [mm]", "shift of the tip [mm]"): tip}
-        )
+        drawings["fig10_tip_shift"] = change_figure(subject, results, tip)
     if all(f"{column}.angle" in channels for column in COLUMNS):
-        drawings["fig11_column_angles"] = change_figure(
-            subject,
-            results,
-            {
-                (f"{name} [deg]", f"{name}, change [deg]"): _angle(column)
-                for column, name in ((one, one.replace("_", " ")) for one in COLUMNS)
-            },
-        )
+        names = {column: column.replace("_", " ") for column in COLUMNS}
+        angles: dict[tuple[str, str], Curve] = {
+            (f"{name} [deg]", f"{name}, change [deg]"): lambda run, c=column: (
+                DEGREES * rise.rearward_angle(run, c)
+            )  # type: ignore[misc]
+            for column, name in names.items()
+        }
+        drawings["fig11_column_angles"] = change_figure(subject, results, angles)
     return drawings
 
 
-def _angle(column: str) -> Curve:
-    return lambda run: DEGREES * rise.rearward_angle(run, column)
-
-
-def panel_figure(subject: Subject, results: Results, channel: str, scale: float, label: str) -> Figure:
+def panel_figure(subject: Subject, results: Results, curve: Curve, label: str) -> Figure:
     """A panel for each clearance, the largest first as in the paper, on one scale."""
     drawing, panels = grid(120, 2, 2, sharex=True, sharey=True)
     watched, mu = subject.watched, subject.friction
@@ -211,7 +200,7 @@ def panel_figure(subject: Subject, results: Results, channel: str, scale: float,
             CurveLook(ideal_name(mu), style.IDEAL, DOTTED, f"ideal, friction {mu:g}", 0.8),
             CurveLook(ideal_name(0.0), style.IDEAL, DASHED, "ideal, no friction", 0.8),
         )
-        _draw(axes, results, looks, _of(channel, scale), (watched.start + edge, watched.end - edge), watched)
+        _draw(axes, results, looks, curve, (watched.start + edge, watched.end - edge), watched)
         axes.set(xlim=(watched.start, watched.end), ylabel=label)
         time_ticks(axes, watched)
         heading(axes, f"{size:.1f} mm")

@@ -43,7 +43,7 @@ from studies.common.rise import DEGREES
 from studies.common.runs import impacts
 from studies.common.study import Study, StudyOutcome
 from studies.common.subject import Subject, paper_subject
-from studies.common.witness import Witness, run_on_exudyn, with_errors
+from studies.common.witness import run_and_measure
 from studies.common.words import text_table
 from support_exudyn import Result, Scenario
 from support_exudyn.postprocessing.figures.linkage_drawing import machine_drawing
@@ -168,13 +168,9 @@ def size_measures(subject: Subject, run: Result) -> Measures:
         "rms_angular_acceleration": ("deg/s^2", watched.fluctuation_of(watched.acceleration, DEGREES)),
         "rms_angular_velocity": ("deg/s", watched.fluctuation_of(speed, DEGREES)),
     }
-
-    def stage_mean(stage: str, run: Result) -> float:
-        return DEGREES * watched.stage_mean(run, speed, stage)
-
     for stage, times in watched.stages.items():
         found[f"rms_angular_velocity_{stage}"] = ("deg/s", watched.fluctuation_of(speed, DEGREES, *times))
-        found[f"mean_angular_speed_{stage}"] = ("deg/s", partial(stage_mean, stage))
+        found[f"mean_angular_speed_{stage}"] = ("deg/s", watched.stage_mean_of(speed, stage, DEGREES))
     if "tip.x" in run.channels:
         found["mean_tip_shift"] = ("mm", watched.shift_of("tip.x", 1e3))
         found["tip_range"] = ("mm", watched.extent_of("tip.x", 1e3))
@@ -306,34 +302,28 @@ def tiles(found: Found) -> tuple[KeyNumber, ...]:
 def influence_work(chosen: Options) -> StudyOutcome:
     """The four rises and those with line contact, their numbers, figures and tables."""
     cases = influence_cases()
-    made = run_on_exudyn(cases, chosen)
+    made, numbers = run_and_measure(cases, influence_numbers, chosen)
     results = {name: made[name] for name in CASES}
-    numbers = with_errors(influence_numbers(made))
-    found = by_case(numbers)
     drawings = figures.influence_figures(results)
     drawings["machine"] = machine_drawing(cases[DRY], marked=(PIN,))
     return StudyOutcome(
         numbers,
-        {"found": found, "run": sys.modules[__name__], "paper": paper_machine},
+        {"run": sys.modules[__name__], "paper": paper_machine},
         drawings,
         influence_tables(numbers),
         results,
         live=figures.LIVE,
-        tiles=tiles(found),
-        witness=Witness(cases, influence_numbers, influence_tables),
+        tiles=tiles(by_case(numbers)),
+        has_witness=True,
     )
 
 
 def size_work(chosen: Options) -> StudyOutcome:
     """All rises of section 4, their numbers, figures and tables."""
     subject = chosen.subject
-    cases = size_cases(subject)
-    results = run_on_exudyn(cases, chosen)
-    numbers_of, tables_of = partial(size_numbers, subject), partial(size_tables, subject)
-    numbers = with_errors(numbers_of(results))
+    results, numbers = run_and_measure(size_cases(subject), partial(size_numbers, subject), chosen)
     found = by_case(numbers)
     words = {
-        "found": found,
         "case_name": case_name,
         "ideal_name": ideal_name,
         "sizes": SIZES_MM,
@@ -343,11 +333,8 @@ def size_work(chosen: Options) -> StudyOutcome:
         "window": f"{subject.watched.window:g} s",
         "has_tip": ("mean_tip_shift", ideal_name(0.0)) in found,
     }
-    drawings = figures.size_figures(subject, results, found)
-    witness = Witness(cases, numbers_of, tables_of)
-    return StudyOutcome(
-        numbers, words, drawings, tables_of(numbers), results, live=figures.LIVE, witness=witness
-    )
+    drawings, tables = figures.size_figures(subject, results, found), size_tables(subject, numbers)
+    return StudyOutcome(numbers, words, drawings, tables, results, live=figures.LIVE, has_witness=True)
 
 
 influence = Study(

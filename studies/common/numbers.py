@@ -1,10 +1,8 @@
 """Numbers that studies report, with their errors: from runs, in tables, in sentences and in summary.json."""
 
-import json
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
-from pathlib import Path
+from dataclasses import dataclass, replace
 from typing import cast
 
 import numpy as np
@@ -13,8 +11,6 @@ import numpy.typing as npt
 from studies.common.rise import Crest, Versus
 from studies.common.runs import halvings
 from support_exudyn import Result
-from support_exudyn.files.whole_file import whole_file
-from support_exudyn.simulation.provenance import versions
 
 DIGITS = 5  # of a number in a sentence
 MOST_DIGITS = 6  # of a number in a table: where its error is smaller, all that are shown are right
@@ -108,13 +104,13 @@ def measured_all(
     for case, run in results.items():
         for name, (unit, measure) in (measures(run) if callable(measures) else measures).items():
             paper = (papers or {}).get((name, case))
-            if isinstance(measure, Versus):
-                ideal = results[ideal_of(case)]
-                number = compared(name, case, unit, run, ideal, measure.get, paper)
-                error = number.numerical_error + (0.0 if run is ideal else measure.missed(run, ideal))
-                numbers.append(replace(number, numerical_error=error))
-            else:
+            if not isinstance(measure, Versus):
                 numbers.append(measured(name, case, unit, run, measure, paper))
+                continue
+            ideal = results[ideal_of(case)]
+            number = compared(name, case, unit, run, ideal, measure.get, paper)
+            error = number.numerical_error + (0.0 if run is ideal else measure.missed(run, ideal))
+            numbers.append(replace(number, numerical_error=error))
     return numbers
 
 
@@ -143,23 +139,6 @@ def compared(
         error += other.estimate(lambda finer: measure(run, finer), unit).error
     error += error_of_records(lambda n: measure(cast(Result, Thinned(run, n)), cast(Result, Thinned(other, n))))
     return Number(name, case, here.value, unit, error, paper)
-
-
-def write_summary(
-    out: Path, study: str, numbers: Sequence[Number], wall_s: float, counts: Mapping[str, int] | None = None
-) -> Path:
-    """Write DIR/summary.json: study, versions, wall time, counts of the study's own, and all numbers."""
-    summary = {
-        "study": study,
-        "versions": versions(),
-        "wall_s": round(wall_s, 3),
-        **(counts or {}),
-        "numbers": [asdict(number) for number in numbers],
-    }
-    path = out / "summary.json"
-    with whole_file(path) as temporary:
-        temporary.write_text(json.dumps(summary, indent=1, allow_nan=False) + "\n", encoding="utf-8")
-    return path
 
 
 # --- in tables and sentences ---

@@ -5,16 +5,14 @@ killed. It is known by its inputs and by the program that made it, see `support_
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import replace
-from pathlib import Path
 
 from studies.common.options import Options
 from support_exudyn import Failure, Result, Scenario, SimulationError
 from support_exudyn.commands.command_line import shown_progress
 from support_exudyn.sweeps.key import key
 from support_exudyn.sweeps.work import run_all
-from support_exudyn.sweeps.workers import Workers
 from user_forces.values.value import InputError
 
 SHORT = {  # what of a case's name stands otherwise in the name of its file
@@ -39,15 +37,15 @@ def run_with_errors(cases: Mapping[str, Scenario], chosen: Options, halved: int 
         steps[name] = [case]
         while case.accuracy is None and len(steps[name]) <= halved:
             steps[name].append(steps[name][-1].refined())
+
+    def label(name: str, n: int) -> str:
+        return f"{name}, steps / {2**n}" if n else name
+
     # the longest first, so that no process is left alone with a long run at the end
     finest_first = range(halved, -1, -1)
-    runs = {_at(name, n): at[n] for n in finest_first for name, at in steps.items() if n < len(at)}
+    runs = {label(name, n): at[n] for n in finest_first for name, at in steps.items() if n < len(at)}
     good = run_cases(runs, chosen)
-    return {name: with_coarser([good[_at(name, n)] for n in range(len(at))]) for name, at in steps.items()}
-
-
-def _at(name: str, n: int) -> str:
-    return f"{name}, steps / {2**n}" if n else name
+    return {name: with_coarser([good[label(name, n)] for n in range(len(at))]) for name, at in steps.items()}
 
 
 def with_coarser(runs: Sequence[Result]) -> Result:
@@ -68,12 +66,6 @@ def impacts(result: Result, pin: str) -> int:
     return min(len(run.onsets.get(pin, ())) for run in halvings(result))
 
 
-def save_run(result: Result, out: Path, name: str) -> None:
-    """Write a run into the folder of runs; one at chosen steps without its coarser ones, which treble it."""
-    kept = result if result.goal is not None else replace(result, coarser=None)
-    kept.save(out / "runs" / f"{name}.h5")
-
-
 def file_name(case: str) -> str:
     """The name of the file of a case, without its ending: "1.5 mm, mu_d = 0.25" is kept as 1p5mm_mu0p25."""
     for said, written in SHORT.items():
@@ -87,30 +79,22 @@ def run_cases(runs: Mapping[str, Scenario], chosen: Options) -> dict[str, Result
     Raises SimulationError if a run fails.
     """
     files = {name: chosen.kept / f"{key(case)}.h5" for name, case in runs.items()} if chosen.kept else {}
-    good = {name: run for name, path in files.items() if (run := _read(path))}
-    missing = {name: case for name, case in runs.items() if name not in good}
-    if missing:
-        good |= _made(missing, chosen.workers, files)
-    return {name: good[name] for name in runs}
-
-
-def _read(path: Path) -> Result | None:
-    """A run that is kept; None if it is not there, or not whole."""
-    try:
-        return Result.load(path)
-    except (OSError, InputError):
-        return None
-
-
-def _made(runs: Mapping[str, Scenario], workers: int | Workers, files: Mapping[str, Path]) -> dict[str, Result]:
-    with bar(f"{len(runs)} runs") as show:
-        results = run_all(runs, workers=workers, progress=lambda shares: show([*shares.values()]), files=files)
-    good: dict[str, Result] = {}
-    for name, result in results.items():
+    good: dict[str, Result | Failure] = {}
+    for name, path in files.items():
+        with suppress(OSError, InputError):  # not there, or not whole
+            good[name] = Result.load(path)
+    if missing := {name: case for name, case in runs.items() if name not in good}:
+        with bar(f"{len(missing)} runs") as show:
+            good |= run_all(
+                missing, workers=chosen.workers, progress=lambda shares: show([*shares.values()]), files=files
+            )
+    found: dict[str, Result] = {}
+    for name in runs:
+        result = good[name]
         if isinstance(result, Failure):
             raise SimulationError(replace(result, reason=f"{name}: {result.reason}"))
-        good[name] = result
-    return good
+        found[name] = result
+    return found
 
 
 @contextmanager

@@ -1,24 +1,34 @@
-"""What a study is and how it is run: its options, its folder, and everything that it leaves there."""
+"""What a study is and how it is run: its folder, and everything that it leaves there."""
 
 import csv
+import json
 import sys
 import tempfile
 import textwrap
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 
 from matplotlib.figure import Figure
 from rich.console import Console
 
 from studies.common import witness
-from studies.common.numbers import NUMBERS, Number, number_rows, write_summary
+from studies.common.numbers import LONGEST, NUMBERS, Number, by_case, number_rows
 from studies.common.options import Options
-from studies.common.runs import file_name, save_run
-from studies.common.witness import Witness
-from studies.common.words import Chapter, JudgedClaim, Words, text_table, without_references
+from studies.common.runs import file_name
+from studies.common.words import (
+    FILE,
+    Chapter,
+    JudgedClaim,
+    Picture,
+    filled,
+    items,
+    text_table,
+    titled,
+    without_references,
+)
 from support_exudyn import Result
 from support_exudyn.commands.command_line import answered, say
 from support_exudyn.files.whole_file import remove_leftovers, whole_file, writing_alone
@@ -27,21 +37,23 @@ from support_exudyn.postprocessing.figures.drawing_data import save_drawing_data
 from support_exudyn.postprocessing.page.live import of_drawing
 from support_exudyn.postprocessing.page.pieces import HARD_SPACE, KeyNumber, Sheet, unbroken
 from support_exudyn.simulation.at_start import be_interruptible
+from support_exudyn.simulation.provenance import versions
 from support_exudyn.sweeps.workers import Workers
 from user_forces.values.value import InputError
 
 LivePanels = Sequence[int] | Mapping[int, str]  # of a live figure, see `of_drawing`
+ALL_NUMBERS = "All numbers of the study; the number behind ± is the numerical error"
 
 
 @dataclass(frozen=True)
 class StudyOutcome:
-    """What a study found.
+    """The results of a study.
 
-    numbers: of summary.json. words: what the sentences of words.md.j2 are filled with, by name. figures,
-    tables: by the name of their files. runs: by that of their case. counts: of its own, for the summary. live:
-    which panels of a figure are time series that the report lets readers look into, by the figure's name.
-    tiles: numbers on the first screen of the report. claims: see `JudgedClaim`. witness: of a study whose runs
-    are those of Exudyn.
+    numbers: of summary.json. words: what the sentences of words.md.j2 are filled with, by name, besides the
+    numbers by name and case (`found`), the runs and the subject. figures, tables: by the name of their files.
+    runs: by that of their case. counts: of its own, for the summary. live: which panels of a figure are time
+    series that the report lets readers look into, by the figure's name. tiles: numbers on the first screen of
+    the report. claims: see `JudgedClaim`. has_witness: whether numbers are those of Exudyn and its witness.
     """
 
     numbers: Sequence[Number]
@@ -53,7 +65,7 @@ class StudyOutcome:
     live: Mapping[str, LivePanels] = field(default_factory=dict)
     tiles: Sequence[KeyNumber] = ()
     claims: Sequence[JudgedClaim] = ()
-    witness: Witness | None = None
+    has_witness: bool = False
 
 
 @dataclass(frozen=True)
@@ -62,8 +74,7 @@ class Study:
 
     name: of its folder. asks: the docstring of its module, whose first line is its question. work: computes all
     that it leaves. seconds: that it takes on two cores, once all is compiled. own_machine: whether it can be
-    about the user's machine. sentences: their template
-    below `studies`; empty: words.md.j2 in its folder.
+    about the user's machine. sentences: their template below `studies`; empty: words.md.j2 in its folder.
     """
 
     name: str
@@ -84,35 +95,78 @@ class Study:
         return (self.asks or "").splitlines()[0]
 
     def __call__(self, chosen: Options) -> Chapter:
-        """Compute, draw and write everything into the output folder. Returns the chapter."""
+        """Compute, draw and write everything into the output folder. Returns the chapter.
+
+        Raises KeyError if the template has no title for a table.
+        """
         if not (self.own_machine or chosen.subject.is_paper):
             raise InputError(f"--machine: {self.name} is about the paper's machine alone; allowed: without it")
         started = time.perf_counter()
         with style.look():
             found = self.work(chosen)
-        numbers, tables = found.numbers, dict(found.tables)
-        if found.witness is not None:
-            numbers = found.witness.compared(numbers, chosen)
-            tables = dict(found.witness.tables(numbers))
-        for case, run in found.runs.items():
-            save_run(run, chosen.out, file_name(case))
+        for case, run in found.runs.items():  # one at chosen steps without its coarser ones, which treble it
+            kept = run if run.goal is not None else replace(run, coarser=None)
+            kept.save(chosen.out / "runs" / f"{file_name(case)}.h5")
         save_figures(chosen, found.figures, found.live)
-        words = {"subject": chosen.subject, "runs": found.runs, **found.words}
-        tables[NUMBERS] = text_table(*number_rows(numbers), left=3)
-        chapter, sheets = Words(self.name, self.template).chapter(
-            words, tables, found.figures, found.tiles, found.claims
-        )
-        if found.witness is not None:
-            chapter, sheets = witness.with_method(chapter, sheets, numbers)
+        chapter, sheets = self._chapter(found, chosen)
         for name, sheet in sheets.items():
             save_table(chosen.out / f"{name}.csv", sheet)
-        chapter.save(chosen.out)
-        write_summary(chosen.out, self.name, numbers, time.perf_counter() - started, found.counts)
+        _write(chosen.out / FILE, chapter.model_dump_json(indent=1))
+        summary = {
+            "study": self.name,
+            "versions": versions(),
+            "wall_s": round(time.perf_counter() - started, 3),
+            **found.counts,
+            "numbers": [asdict(number) for number in found.numbers],
+        }
+        _write(chosen.out / "summary.json", json.dumps(summary, indent=1, allow_nan=False))
         return chapter
+
+    def _chapter(self, found: StudyOutcome, chosen: Options) -> tuple[Chapter, dict[str, Sheet]]:
+        """The chapter of the report, and all tables by name, those that are too long for it among them.
+
+        A study with a witness names engine and method in every caption, and what the witness confirms.
+        """
+        subject, of_all = chosen.subject, found.numbers
+        told = {"subject": subject, "runs": found.runs, "found": by_case(of_all), **found.words}
+        blocks = filled(self.template, told)
+        blocks.setdefault(NUMBERS, [ALL_NUMBERS])
+        tables = {**found.tables, NUMBERS: text_table(*number_rows(of_all), left=3)}
+        sheets = {name: titled(table, name, blocks) for name, table in tables.items()}
+        by, confirmed = (witness.computed_by(), [witness.verdict(of_all)]) if found.has_witness else ("", [])
+        if by:
+            there = f" Witness of every number, and the difference: [@{NUMBERS}]."
+            for name, one in sheets.items():
+                caption = f"{one.caption} {by}{'' if name == NUMBERS else there}".strip()
+                sheets[name] = replace(one, caption=caption)
+        pictures = (item.partition(": ") for item in items(blocks, "Figures"))
+        title = next(iter(blocks))
+        chapter = Chapter(
+            study=self.name,
+            machine=subject.name,
+            contact="" if subject.is_paper else subject.contact_in_words,
+            title=title,
+            question=" ".join(blocks[title]),
+            answer=" ".join(blocks.get("Answer", ())),
+            numbers=items(blocks, "Numbers"),
+            method=(*blocks["Method"], *([by] if by else ())),
+            findings=(*items(blocks, "Findings"), *confirmed),
+            pictures=tuple(Picture(stem, caption) for stem, _, caption in pictures if stem in found.figures),
+            sheets=tuple(one for one in sheets.values() if len(one.rows) <= LONGEST),
+            tiles=tuple(found.tiles),
+            claims=tuple(found.claims),
+            computed_by=by,
+        )
+        return chapter, sheets
+
+
+def _write(path: Path, text: str) -> None:
+    with whole_file(path) as temporary:
+        temporary.write_text(text + "\n", encoding="utf-8")
 
 
 def work_in_folder(work: Callable[[Path], None], out: Path) -> int:
-    """Do what fills an output folder; what the user can mend is said in a sentence. Returns the exit code."""
+    """Fill an output folder; what the user can mend is printed in a sentence. Returns the exit code."""
 
     def done() -> None:
         with output_folder(out):
@@ -140,8 +194,7 @@ def save_figures(
 
     live: which panels of a figure are written as a live figure, too, see `of_drawing`.
     """
-    panels = live or {}
-    jobs = [(drawing, chosen.out, name, panels.get(name, ())) for name, drawing in drawings.items()]
+    jobs = [(drawing, chosen.out, name, (live or {}).get(name, ())) for name, drawing in drawings.items()]
     if isinstance(chosen.workers, Workers):
         chosen.workers.run(jobs, _save_figure, lambda shares: None)
     else:  # starting a pool takes longer

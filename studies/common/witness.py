@@ -18,16 +18,14 @@ import subprocess
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from statistics import median
 
 from studies.common.numbers import NUMBERS, Number
 from studies.common.options import Options
 from studies.common.runs import run_with_errors
-from studies.common.words import Chapter
 from support_exudyn import Result, Scenario, SolverSettings
 from support_exudyn.formulations.registry import formulation
-from support_exudyn.postprocessing.page.pieces import Sheet
 from support_exudyn.simulation.automatic_settings import settings_for
 from support_exudyn.simulation.provenance import installed
 from user_forces import Frictionless
@@ -40,26 +38,28 @@ EXTREMES = ("largest", "least", "max", "min", "peak")  # how names of extremes b
 TOLERANCE = 1e-9  # of the witness; one more run has 8e-9, from which its own errors follow
 
 
-@dataclass(frozen=True)
-class Witness:
-    """What the witness of a study computes, and what is told again once it has.
+def run_and_measure(
+    cases: Mapping[str, Scenario], measure: Callable[[Mapping[str, Result]], Sequence[Number]], chosen: Options
+) -> tuple[dict[str, Result], list[Number]]:
+    """Runs on Exudyn, and all numbers with errors and with those of the witness, where that covers the cases.
 
-    cases: by the names that they have on Exudyn. measure: all numbers of the study from runs of these cases.
-    tables: all tables of the study from its numbers.
+    Arguments:
+        cases: by name.
+        measure: all numbers of the study from the runs of these cases.
+        chosen: how they are run.
     """
-
-    cases: Mapping[str, Scenario]
-    measure: Callable[[Mapping[str, Result]], Sequence[Number]]
-    tables: Callable[[Sequence[Number]], Mapping[str, Sheet]]
-
-    def compared(self, numbers: Sequence[Number], chosen: Options) -> list[Number]:
-        """The numbers with those of the witness; as they are where it does not cover their cases."""
-        cases = {name: by_witness(case) for name, case in self.cases.items()}
-        if not all(formulation("compiled").covers(case) for case in cases.values()):
-            return list(numbers)
-        results = run_with_errors(cases, replace(chosen, kept=chosen.witnesses), HALVED)
-        known = {(one.name, one.case): one.value for one in self.measure(results)}
-        return [replace(one, witness=known.get((one.name, one.case))) for one in numbers]
+    results = run_with_errors({name: on_exudyn(case) for name, case in cases.items()}, chosen, HALVED)
+    numbers = with_errors(measure(results))
+    solver = SolverSettings(tolerance=8.0 * TOLERANCE)
+    witnesses = {
+        name: replace(case, accuracy=None, formulation="compiled", solver=solver)
+        for name, case in cases.items()
+    }
+    if not all(formulation("compiled").covers(case) for case in witnesses.values()):
+        return results, numbers
+    again = measure(run_with_errors(witnesses, replace(chosen, kept=chosen.witnesses), HALVED))
+    known = {(one.name, one.case): one.value for one in again}
+    return results, [replace(one, witness=known.get((one.name, one.case))) for one in numbers]
 
 
 def on_exudyn(case: Scenario) -> Scenario:
@@ -68,17 +68,6 @@ def on_exudyn(case: Scenario) -> Scenario:
     if any(isinstance(pin.contact.friction, Frictionless) for pin in case.clearance_pins.values()):
         return replace(chosen, solver=replace(chosen.solver, impact_steps=LOOSE))
     return chosen
-
-
-def by_witness(case: Scenario) -> Scenario:
-    """A case by the compiled formulation, at the larger of both tolerances."""
-    solver = SolverSettings(tolerance=8.0 * TOLERANCE)
-    return replace(case, accuracy=None, formulation="compiled", solver=solver)
-
-
-def run_on_exudyn(cases: Mapping[str, Scenario], chosen: Options) -> dict[str, Result]:
-    """Run every case on Exudyn at two settings; see `run_with_errors`."""
-    return run_with_errors({name: on_exudyn(case) for name, case in cases.items()}, chosen, HALVED)
 
 
 @contextmanager
@@ -114,7 +103,7 @@ def with_errors(numbers: Sequence[Number]) -> list[Number]:
     return [replace(one, numerical_error=error(one)) if one.numerical_error > 0.0 else one for one in numbers]
 
 
-# --- what is told ---
+# --- sentences ---
 
 
 def computed_by() -> str:
@@ -136,27 +125,8 @@ def verdict(numbers: Sequence[Number]) -> str:
     """How many numbers the witness confirms, and which it does not, in a sentence or two."""
     judged = [one for one in numbers if one.witness is not None]
     beyond = [f"{one.name.replace('_', ' ')} ({one.case})" for one in judged if not is_within(one)]
-    said = (
+    sentence = (
         f"The witness has {len(judged)} of the {len(numbers)} numbers, and differs from Exudyn by no more than "
         f"the printed error in {len(judged) - len(beyond)} of them ([@{NUMBERS}])."
     )
-    return f"{said} Beyond it: {'; '.join(beyond)}." if beyond else said
-
-
-def with_method(
-    chapter: Chapter, sheets: Mapping[str, Sheet], numbers: Sequence[Number]
-) -> tuple[Chapter, dict[str, Sheet]]:
-    """A chapter and its tables with engine and method in every caption, and with what the witness says."""
-    by = computed_by()
-    there = f" Witness of every number, and the difference: [@{NUMBERS}]."
-    signed = {
-        name: replace(one, caption=f"{one.caption} {by}{'' if name == NUMBERS else there}".strip())
-        for name, one in sheets.items()
-    }
-    changes = {
-        "sheets": tuple(signed[one.name] for one in chapter.sheets),
-        "computed_by": by,
-        "method": (*chapter.method, by),
-        "findings": (*chapter.findings, verdict(numbers)),
-    }
-    return chapter.model_copy(update=changes), signed
+    return f"{sentence} Beyond it: {'; '.join(beyond)}." if beyond else sentence

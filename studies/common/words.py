@@ -7,15 +7,15 @@ someone who has never heard of the paper understands; "## Numbers", a list of th
 and, if there is one, its caption, the key table first. The rows of the tables come from the study.
 
 A sentence refers to a figure or a table by `[@stem]` or `[@name]`, to that of another study by
-`[@study/stem]`; the report makes a link of it, see `studies.common.words`.
+`[@study/stem]`; the report makes a link of it.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cache
 from pathlib import Path
 from typing import TypeVar
 
@@ -23,12 +23,11 @@ from jinja2 import ChoiceLoader, Environment, PackageLoader, StrictUndefined
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from studies.common import numbers
-from studies.common.subject import Subject
-from support_exudyn.files.whole_file import contents, whole_file
+from support_exudyn.files.whole_file import contents
 from support_exudyn.postprocessing.page.pieces import KeyNumber, Sheet
 from user_forces.values.value import InputError
 
-ALL_NUMBERS = "All numbers of the study; the number behind ± is the numerical error"
+Blocks = Mapping[str, Sequence[str]]  # paragraphs and items of lists, by their heading
 
 
 def text_table(
@@ -38,91 +37,46 @@ def text_table(
     return Sheet("", tuple(header), tuple(map(tuple, rows)), left=left, wide=wide)
 
 
-@dataclass(frozen=True)
-class Words:
-    """The sentences of a study, or of the report around them; template: below `studies`."""
-
-    study: str
-    template: str
-
-    @cached_property
-    def templates(self) -> Environment:
-        """All templates below `studies`, and `phrases.md.j2` of `studies.common` by its bare name."""
-        loaders = [PackageLoader("studies", ""), PackageLoader("studies.common", "")]
-        surroundings = Environment(
-            loader=ChoiceLoader(loaders),
-            autoescape=False,  # what shows a chapter escapes it
-            undefined=StrictUndefined,
-            trim_blocks=True,
-            lstrip_blocks=True,
-        )
-        surroundings.filters["fmt"] = format
-        tools = (numbers.said, numbers.against, numbers.percent, numbers.rounded, numbers.short, numbers.off)
-        for tool in tools:
-            surroundings.globals[tool.__name__] = surroundings.filters[tool.__name__] = tool
-        return surroundings
-
-    def blocks(self, told: Mapping[str, object]) -> dict[str, list[str]]:
-        """Paragraphs and items of lists of the filled template, each in one line, by their heading."""
-        found: dict[str, list[str]] = {}
-        here: list[str] = []
-        begins = True
-        for line in self.templates.get_template(self.template).render(told).splitlines():
-            text = " ".join(line.split())
-            if line.startswith("#"):
-                here = found.setdefault(text.lstrip("# "), [])
-            elif text and (begins or text.startswith("- ")):
-                here.append(text)
-            elif text:
-                here[-1] += f" {text}"
-            begins = not text or line.startswith("#")
-        return found
-
-    def chapter(
-        self,
-        told: Mapping[str, object],
-        tables: Mapping[str, Sheet],
-        figures: Collection[str],
-        tiles: Sequence[KeyNumber] = (),
-        claims: Sequence[JudgedClaim] = (),
-    ) -> tuple[Chapter, dict[str, Sheet]]:
-        """The study as a chapter of the report, and all tables by name, those that are not in it among them.
-
-        figures: names of those that were drawn: the template may have captions of others.
-
-        Raises KeyError if the template has no title for a table.
-        """
-        blocks = self.blocks(told)
-        title = next(iter(blocks))
-        blocks.setdefault(numbers.NUMBERS, [ALL_NUMBERS])
-        sheets = {name: titled(table, name, blocks) for name, table in tables.items()}
-        short = [one for one in sheets.values() if len(one.rows) <= numbers.LONGEST]
-        pictures = (_item(block).partition(": ") for block in blocks["Figures"])
-        subject = told.get("subject")
-        own = subject if isinstance(subject, Subject) and not subject.is_paper else None
-        chapter = Chapter(
-            study=self.study,
-            machine=own.name if own else "",
-            contact=own.contact_in_words if own else "",
-            title=title,
-            question=" ".join(blocks[title]),
-            answer=" ".join(blocks.get("Answer", ())),
-            numbers=tuple(_item(block) for block in blocks.get("Numbers", ())),
-            method=tuple(blocks["Method"]),
-            findings=tuple(_item(block) for block in blocks["Findings"]),
-            pictures=tuple(Picture(stem, caption) for stem, _, caption in pictures if stem in figures),
-            sheets=tuple(short),
-            tiles=tuple(tiles),
-            claims=tuple(claims),
-        )
-        return chapter, sheets
+@cache
+def templates() -> Environment:
+    """All templates below `studies`, and `phrases.md.j2` of `studies.common` by its bare name."""
+    surroundings = Environment(
+        loader=ChoiceLoader([PackageLoader("studies", ""), PackageLoader("studies.common", "")]),
+        autoescape=False,  # what shows a chapter escapes it
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    surroundings.filters["fmt"] = format
+    tools = (numbers.said, numbers.against, numbers.percent, numbers.rounded, numbers.short, numbers.off)
+    for tool in tools:
+        surroundings.globals[tool.__name__] = surroundings.filters[tool.__name__] = tool
+    return surroundings
 
 
-def _item(block: str) -> str:
-    return block.removeprefix("- ")
+def filled(template: str, told: Mapping[str, object]) -> dict[str, list[str]]:
+    """Paragraphs and items of lists of a filled template, each in one line, by their heading."""
+    found: dict[str, list[str]] = {}
+    here: list[str] = []
+    begins = True
+    for line in templates().get_template(template).render(told).splitlines():
+        text = " ".join(line.split())
+        if line.startswith("#"):
+            here = found.setdefault(text.lstrip("# "), [])
+        elif text and (begins or text.startswith("- ")):
+            here.append(text)
+        elif text:
+            here[-1] += f" {text}"
+        begins = not text or line.startswith("#")
+    return found
 
 
-def titled(table: Sheet, name: str, blocks: Mapping[str, Sequence[str]]) -> Sheet:
+def items(blocks: Blocks, heading: str) -> tuple[str, ...]:
+    """The items of the list below a heading; none without the heading."""
+    return tuple(block.removeprefix("- ") for block in blocks.get(heading, ()))
+
+
+def titled(table: Sheet, name: str, blocks: Blocks) -> Sheet:
     """A table with its name, and with title and caption from the blocks of a template.
 
     Raises KeyError if the template has no title for the table.
@@ -147,10 +101,6 @@ class Picture:
 
     stem: str
     caption: str
-
-    def __post_init__(self) -> None:
-        if not self.stem or Path(self.stem).name != self.stem or "\\" in self.stem:
-            raise ValueError(f"stem = {self.stem!r}: allowed: a file name without folder and ending")
 
 
 @dataclass(frozen=True)
@@ -197,13 +147,6 @@ class Chapter(BaseModel):
     machine: str = ""
     contact: str = ""
     computed_by: str = ""
-
-    def save(self, out: Path) -> Path:
-        """Write DIR/chapter.json, whole or not at all."""
-        path = out / FILE
-        with whole_file(path) as temporary:
-            temporary.write_text(self.model_dump_json(indent=1) + "\n", encoding="utf-8")
-        return path
 
     @staticmethod
     def load(folder: Path) -> Chapter:

@@ -6,6 +6,7 @@ pin. The machine starts at rest, its journal on the bore: after a fall into the 
 bounces would decide about a tenth of the peak. It ends when the first swings are over.
 """
 
+import itertools
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
@@ -19,7 +20,7 @@ from studies.common.numbers import Measures
 from studies.common.paper_machine import CLEARANCE_MM, CONTACT_TITLES, CYLINDERS, PAPER
 from studies.common.rise import DEGREES, Crest
 from studies.common.subject import Subject
-from support_exudyn import CubicStep, Line, Result, Scenario, UniformSpeed
+from support_exudyn import ClearancePin, CubicStep, Line, Result, Scenario, UniformSpeed
 from support_exudyn.mechanics.channels import ALL_CHANNELS
 from support_exudyn.model.drives.coupled_drive import CoupledDrive
 from support_exudyn.model.drives.drive import Stroke
@@ -68,23 +69,10 @@ class ModePlan:
         return PINS[0], f"{self.subject.clearance_mm:g} mm"
 
     @cached_property
-    def actuators(self) -> tuple[str, ...]:
-        """The actuators that drives move: those with a stroke, and those that follow one, as a shield's ram.
-
-        Raises InputError if there are none, or if one of them moves in another way.
-        """
-        return self.leading + tuple(name for name in self._driven if name not in self.leading)
-
-    @property
-    def _driven(self) -> tuple[str, ...]:
-        motion = self.subject.motion
-        return tuple(name for name in motion.driven if name in motion.unloaded.actuators)
-
-    @cached_property
     def leading(self) -> tuple[str, ...]:
-        """The actuators with a stroke. Raises InputError as `actuators` does."""
+        """The actuators with a stroke. Raises InputError if there are none, or if one moves in another way."""
         motion = self.subject.motion
-        found = tuple(n for n in self._driven if not isinstance(motion.drive_of(n), CoupledDrive))
+        found = tuple(n for n in self.actuators if not isinstance(motion.drive_of(n), CoupledDrive))
         if not found:
             raise InputError("machine: no drive moves a linear actuator of it; drive_mode needs one that does")
         for name in found:
@@ -93,6 +81,13 @@ class ModePlan:
                 allowed = "a drive with a stroke: UniformSpeed, CubicStep"
                 raise InputError(f"drive of {name} = {kind}: drive_mode allows: {allowed}")
         return found
+
+    @cached_property
+    def actuators(self) -> tuple[str, ...]:
+        """The actuators that drives move: those with a stroke, and then those that follow one."""
+        motion = self.subject.motion
+        driven = [name for name in motion.driven if name in motion.unloaded.actuators]
+        return tuple(sorted(driven, key=lambda name: isinstance(motion.drive_of(name), CoupledDrive)))
 
     @cached_property
     def columns(self) -> tuple[str, ...]:
@@ -112,72 +107,69 @@ class ModePlan:
     @cached_property
     def scenarios(self) -> Mapping[str, Scenario]:
         """Both modes, both pins, all kinds of actuators; the longest first."""
-        return {
-            case_name(mode, pin, columns): self._run(mode, pin, columns)
-            for columns in reversed(self.columns)
-            for pin in reversed(self.pins)
-            for mode in MODES
-        }
+        every = itertools.product(reversed(self.columns), reversed(self.pins), MODES)
+        return {case_name(mode, pin, columns): self._run(mode, pin, columns) for columns, pin, mode in every}
 
     def _run(self, mode: str, pin: str, columns: str) -> Scenario:
-        subject, watched = self.subject, self.subject.watched
-        ideal = pin == self.pins[0]
-        friction = subject.friction
-        base = subject.ideal(friction) if ideal else subject.with_clearance(subject.clearance_mm, friction)
-        duration = round(watched.end + AFTER * (watched.end - watched.start), 9)
-        first, *others = drives = [self.drive(mode, name) for name in self.leading]
-        period = min(base.recorded_every, PERIOD)
-        base = replace(base, duration=duration, record_period=period, channels=ALL_CHANNELS)
-        if all(one == first for one in others):
-            base = replace(base, drive=first, drives={})
-        else:
-            base = replace(base, drives=dict(zip(self.leading, drives, strict=True)))
+        subject, watched, friction = self.subject, self.subject.watched, self.subject.friction
+        loose = subject.with_clearance(subject.clearance_mm, friction)
+        base = subject.ideal(friction) if pin == self.pins[0] else loose
+        drives = {name: self.drive(mode, name) for name in self.leading}
+        first, *others = drives.values()
+        alike = all(one == first for one in others)
+        base = replace(
+            base,
+            duration=round(watched.end + AFTER * (watched.end - watched.start), 9),
+            record_period=min(base.recorded_every, PERIOD),
+            channels=ALL_CHANNELS,
+            drive=first if alike else base.drive,
+            drives={} if alike else drives,
+        )
         if columns == "cylinder":
             return paper_machine.on_cylinders(replace(base, duration=END), paper_machine.INLETS[mode])
         if columns == "oil":
-            if subject.is_paper:
-                base = replace(base, actuators=paper_machine.oil_columns())
-            return base
+            return replace(base, actuators=paper_machine.oil_columns()) if subject.is_paper else base
         rigid = {name: one for name, one in base.actuators.items() if name not in self.actuators}
         return replace(base, actuators=rigid)
 
     @cached_property
     def starts(self) -> dict[str, Scenario]:
         """The starts of mode 1 by pin and oil; of the paper's machine only."""
-        if not self.subject.is_paper:
-            return {}
-        return {start_name(pin, oil): self._start(pin, oil) for pin in START_PINS for oil in OIL}
+        found: dict[str, Scenario] = {}
+        for pin, oil in itertools.product(START_PINS, OIL) if self.subject.is_paper else ():
+            is_ideal = pin == PINS[0]
+            base = self.scenarios[case_name("mode 1", PINS[0 if is_ideal else 1], "oil")]
+            assert isinstance(base.drive, UniformSpeed)
+            modulus, hoses = OIL[oil]
+            columns = {
+                name: replace(column, bulk_modulus=modulus, line=hoses)
+                for name, column in paper_machine.oil_columns().items()
+            }
+            found[start_name(pin, oil)] = replace(
+                base,
+                drive=replace(base.drive, start=INLET, end=INLET + base.drive.end - base.drive.start),
+                duration=INLET + SWINGS,
+                start="settled",
+                actuators=columns,
+                pins=base.pins if is_ideal else {paper_machine.CLEARANCE_PIN: self._pin(pin)},
+                channels=(rise.FORCE,),
+            )
+        return found
 
-    def _start(self, pin: str, oil: str) -> Scenario:
-        ideal = pin == PINS[0]
-        base = self.scenarios[case_name("mode 1", PINS[0] if ideal else PINS[1], "oil")]
-        own = base.drive
-        assert isinstance(own, UniformSpeed)
-        drive = replace(own, start=INLET, end=INLET + own.end - own.start)
-        modulus, hoses = OIL[oil]
-        columns = {
-            name: replace(column, bulk_modulus=modulus, line=hoses)
-            for name, column in paper_machine.oil_columns().items()
-        }
-        joint = partial(paper_machine.clearance_joint, CLEARANCE_MM, law=paper_machine.PAPERS_LAW)
-        pins = base.pins if ideal else {paper_machine.CLEARANCE_PIN: joint(self.subject.friction, contact=pin)}
-        return replace(
-            base,
-            drive=drive,
-            duration=INLET + SWINGS,
-            start="settled",
-            actuators=columns,
-            pins=pins,
-            channels=(rise.FORCE,),
-        )
+    def _pin(self, contact: str) -> ClearancePin:
+        law = paper_machine.PAPERS_LAW
+        return paper_machine.clearance_joint(CLEARANCE_MM, self.subject.friction, contact=contact, law=law)
 
-    # --- measures ---
+    def measures(self, result: Result) -> Measures:
+        """Unit and measure of every number of a case that has a limit, by name.
 
-    @cached_property
-    def _of_motion(self) -> dict[str, tuple[str, rise.Measure]]:
+        Where there is an impulse, it stands in place of what squares or extremes make endless.
+        """
+        if result.scenario.duration == INLET + SWINGS:
+            return {PEAK: ("kN", Crest(rise.FORCE, 1e-3, INLET, INLET + SWINGS))}
         watched = self.subject.watched
         force, begin = watched.force, watched.start  # from the very start on, which is where mode 1 strikes
-        return {
+        found: dict[str, tuple[str, rise.Measure]] = {
             "mean_pin_force": ("N", watched.mean_of(force)),
             "std_pin_force": ("N", watched.spread_of(force)),
             "rms_pin_force": ("N", watched.fluctuation_of(force, 1.0, begin)),
@@ -193,32 +185,25 @@ class ModePlan:
                 for extreme in EXTREMES
             },
         }
-
-    def measures(self, result: Result) -> Measures:
-        """Unit and measure of every number of a case that has a limit, by name.
-
-        Where there is an impulse, it stands in place of what squares or extremes make endless.
-        """
-        if result.scenario.duration == INLET + SWINGS:
-            return {PEAK: ("kN", Crest(rise.FORCE, 1e-3, INLET, INLET + SWINGS))}
-        found = dict(self._of_motion)
         endless = {name: [f"{one}_{name}_force" for one in EXTREMES] for name in self.actuators}
-        endless["pin"] = [START, STOP, "std_pin_force", "rms_pin_force"]
+        endless["pin"] = [START, STOP, "std_pin_force", "rms_pin_force"]  # its impulse is a magnitude
 
-        def impulse(channel: str, place: int, run: Result) -> float:
-            return impulses_of(run, channel, 0.0, math.inf)[place]
-
+        channels = {what: force if what == "pin" else f"{what}.force" for what in endless}
+        struck = [
+            what for what, channel in channels.items() if len(impulses_of(result, channel, 0.0, math.inf)) == 2
+        ]
         for place, end in enumerate(("start", "end")):
-            for what in endless:  # that of the pin is a magnitude
-                channel = self.subject.watched.force if what == "pin" else f"{what}.force"
-                if len(impulses_of(result, channel, 0.0, math.inf)) == 2:
-                    found[f"impulse_{what}_{end}"] = ("N s", partial(impulse, channel, place))
-        for what, names in endless.items():
-            if f"impulse_{what}_start" in found:
-                found = {name: about for name, about in found.items() if name not in names}
+            for what in struck:
+                found[f"impulse_{what}_{end}"] = ("N s", partial(_impulse, channels[what], place))
+        gone = {name for what in struck for name in endless[what]}
         if result.impulses:
-            del found["largest_angular_acceleration"], found["std_angular_acceleration"]
+            gone |= {"largest_angular_acceleration", "std_angular_acceleration"}
+        found = {name: about for name, about in found.items() if name not in gone}
         return found | (ON_CYLINDERS if result.scenario.valved else {})
+
+
+def _impulse(channel: str, place: int, run: Result) -> float:
+    return impulses_of(run, channel, 0.0, math.inf)[place]
 
 
 # --- on hydraulic cylinders ---

@@ -6,7 +6,6 @@ limit, and on hydraulic cylinders, which no displacement drives but the oil that
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from functools import partial
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -16,7 +15,7 @@ from studies.common.numbers import Found, Number, against, by_case, cell, measur
 from studies.common.options import Options
 from studies.common.panels import finish, grid, heading
 from studies.common.study import LivePanels, Study, StudyOutcome
-from studies.common.witness import Witness, run_on_exudyn, with_errors
+from studies.common.witness import run_and_measure
 from studies.common.words import text_table
 from studies.drive_mode import cases
 from studies.drive_mode.cases import (
@@ -169,38 +168,20 @@ def by_mode(plan: ModePlan, results: Mapping[str, Result], columns: str, curves:
 def work(chosen: Options) -> StudyOutcome:
     """Both modes on all kinds of columns, and the start by assumptions."""
     plan = ModePlan(chosen.subject)
-    every = {**plan.scenarios, **plan.starts}
-
-    def numbers_of(made: Mapping[str, Result]) -> list[Number]:
-        return measured_all(made, plan.measures)
-
-    made = run_on_exudyn(every, chosen)
-    results = {name: made[name] for name in plan.scenarios}
-    numbers = with_errors(numbers_of(made))
-    return StudyOutcome(
-        numbers,
-        _words(plan, by_case(numbers)),
-        figures(plan, results),
-        tables(plan, numbers),
-        results,
-        live=LIVE,
-        witness=Witness(every, numbers_of, partial(tables, plan)),
+    made, numbers = run_and_measure(
+        {**plan.scenarios, **plan.starts}, lambda runs: measured_all(runs, plan.measures), chosen
     )
-
-
-def _words(plan: ModePlan, found: Found) -> dict[str, object]:
-    ideal, with_clearance = plan.pins
+    results, found = {name: made[name] for name in plan.scenarios}, by_case(numbers)
+    (ideal, with_clearance), is_paper = plan.pins, plan.subject.is_paper
     struck = case_name("mode 1", with_clearance, "rigid")  # by the sudden start
-    is_paper = plan.subject.is_paper
 
     def heat(mode: str) -> float:
         of = case_name(mode, ideal, "cylinder")
         return 100.0 * found["loss_in_valves", of].value / found["work_of_pumps", of].value
 
-    return {
+    words = {
         "cases": cases,
         "plan": plan,
-        "found": found,
         "case_name": case_name,
         "START": START,
         "STOP": STOP,
@@ -213,6 +194,8 @@ def _words(plan: ModePlan, found: Found) -> dict[str, object]:
         "assumed": {"peak": peak, "band": band} if is_paper else None,
         "velocity_converges": is_paper and velocity_converges(found),
     }
+    drawings, sheets = figures(plan, results), tables(plan, numbers)
+    return StudyOutcome(numbers, words, drawings, sheets, results, live=LIVE, has_witness=True)
 
 
 def velocity_converges(found: Found) -> bool:

@@ -203,10 +203,9 @@ def work(chosen: Options) -> StudyOutcome:
     """Both modes on both pumps, with both pins, and with oil that pulls."""
     results = run_with_errors(scenarios(), chosen)
     numbers = measured_all(results, measures)
-    found = by_case(numbers)
-    words = {"found": found, "case_name": case_name, "pumps": PUMPS, "pins": PINS}
+    words = {"case_name": case_name, "pumps": PUMPS, "pins": PINS}
     drawings = {"rise_by_valves": rise_figure(results), "opening": start_figure(results)}
-    return StudyOutcome(numbers, words, drawings, {"table_pin": pin_table(found)}, results)
+    return StudyOutcome(numbers, words, drawings, {"table_pin": pin_table(by_case(numbers))}, results)
 
 
 study = Study("valve_modes", __doc__, work, seconds=40.0, sentences="drive_mode/valves.md.j2")

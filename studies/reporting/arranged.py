@@ -8,33 +8,25 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from functools import cached_property, partial
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
-from typing import NamedTuple
 from urllib.parse import quote
 
 from jinja2 import PackageLoader
 from markupsafe import Markup, escape
 
-from studies.common.words import REFERENCE, Chapter, JudgedClaim, Picture
+from studies.common.words import REFERENCE, JudgedClaim
 from studies.reporting.content import ReportSection, around_chapters
 from support_exudyn.postprocessing.page import live_html
-from support_exudyn.postprocessing.page.pieces import (
-    FileLink,
-    Sheet,
-    ShownFigure,
-    ShownTable,
-    image,
-    templates,
-)
+from support_exudyn.postprocessing.page.pieces import FileLink, ShownFigure, ShownTable, image, templates
 
 PAGE, APPENDIX = "report.html", "appendix.html"
 MACHINE = "machine"  # the figure with the clearance pin marked
 MOST_ROWS = 8  # of a table on the page
 SENTENCES = 3  # on the first screen
-VERDICTS = {  # class, symbol and word of a verdict by its beginning
+VERDICTS = {  # class, symbol and word of a verdict
     "holds": ("holds", "✓", "holds"),
     "in part": ("partly", "◐", "holds in part"),
     "fails": ("unsupported", "✗", "fails"),
@@ -62,39 +54,82 @@ def pages(
     """
     arranged = Arrangement(out, sections)
     words = {"around": around_chapters(sections), "waited": waited, "others": others or {}}
-    made = templates(PackageLoader("studies.reporting"))
+    surroundings = templates(PackageLoader("studies.reporting"))
     found = {}
     for file in (PAGE, APPENDIX):
-        made.filters["linked"] = partial(arranged.places.linked, file)
-        made.filters["link"] = partial(arranged.places.link, file)
+        surroundings.filters["linked"] = partial(arranged.linked, file)
+        surroundings.filters["link"] = partial(arranged.link, file)
+        page = surroundings.get_template(f"{file}.j2")
         scripts = Markup(arranged.live[file].scripts)
-        of_page = made.get_template(f"{file}.j2")
-        found[file] = of_page.render(words, arranged=arranged, table_of=ShownTable, scripts=scripts)
+        found[file] = page.render(words, arranged=arranged, table_of=ShownTable, scripts=scripts)
     return found
 
 
-# --- places ---
+def anchor(name: str) -> str:
+    """The id of an element: "study-stem" of "study/stem"."""
+    return name.replace("/", "-").replace(" ", "-")
 
 
-@dataclass
-class Places:
-    """File and label, such as "Fig. 5", of figures and tables by "study/stem", numbered in reading order."""
+class Arrangement:
+    """All chapters of a report, with the place of every figure and table, which are named "study/stem".
 
-    known: dict[str, tuple[str, str]] = field(default_factory=dict)
-    last: dict[str, int] = field(default_factory=dict)
+    places: file and label, such as "Fig. 5", of each, numbered in reading order. leading: the chapter with key
+    numbers, or the first. top: figures of the first screen: the machine, and the leading chapter's key figure.
 
-    def number(self, file: str, kind: str, names: Iterable[str]) -> None:
+    Arguments:
+        out: the folder of both pages.
+        sections: in the order in which they are to be read.
+    """
+
+    def __init__(self, out: Path, sections: Sequence[ReportSection]) -> None:
+        self.out, self.sections = out, sections
+        self.by_name = {one.chapter.study: one for one in sections}
+        self.figures = {
+            one.chapter.study: [f"{one.chapter.study}/{picture.stem}" for picture in one.chapter.pictures]
+            for one in sections
+        }
+        self.tables = {
+            one.chapter.study: {f"{one.chapter.study}/{sheet.name}": sheet for sheet in one.chapter.sheets}
+            for one in sections
+        }
+        chapters = [one.chapter for one in sections]
+        self.leading = next(iter([one for one in chapters if one.tiles] + chapters), None)
+        ahead = self.figures[self.leading.study] if self.leading else []
+        self.top = {
+            is_machine: next((name for name in ahead if name.endswith(f"/{MACHINE}") == is_machine), "")
+            for is_machine in (True, False)
+        }
+        self.key_figure = {
+            study: [name for name in names if name not in self.top.values()][:1]
+            for study, names in self.figures.items()
+        }
+        self.places: dict[str, tuple[str, str]] = {}
+        self._number(PAGE, "Fig.", filter(None, self.top.values()))
+        for study in self.by_name:
+            self._number(PAGE, "Fig.", self.key_figure[study])
+            self._number(PAGE, "Table", list(self.tables[study])[:1])
+        for study in self.by_name:
+            self._number(APPENDIX, "Fig.", self.figures[study])
+            self._number(APPENDIX, "Table", self.tables[study])
+        of_all = {
+            f"{study}/{stem}": live for study, one in self.by_name.items() for stem, live in one.live.items()
+        }
+        self.live = {
+            file: live_html.html({name: live for name, live in of_all.items() if self.places[name][0] == file})
+            for file in (PAGE, APPENDIX)
+        }
+
+    def _number(self, file: str, kind: str, names: Iterable[str]) -> None:
         """Give figures ("Fig.") or tables ("Table") their places; those that have one keep it."""
         for name in names:
-            if name not in self.known:
-                self.last[kind] = self.last.get(kind, 0) + 1
-                self.known[name] = file, f"{kind} {self.last[kind]}"
+            last = sum(label.startswith(kind) for _, label in self.places.values())
+            self.places.setdefault(name, (file, f"{kind} {last + 1}"))
 
     def link(self, file: str, name: str) -> Markup:
         """A link from a page to a figure or table; its bare name if the report has none such."""
-        if name not in self.known:
+        if name not in self.places:
             return escape(name.rpartition("/")[2])
-        place, label = self.known[name]
+        place, label = self.places[name]
         page = "" if place == file else place
         return Markup('<a href="{}#{}">{}</a>').format(page, anchor(name), label.replace(" ", "\u00a0"))
 
@@ -106,66 +141,7 @@ class Places:
             for n, part in enumerate(parts)
         )
 
-
-def anchor(name: str) -> str:
-    """The id of an element: "study-stem" of "study/stem"."""
-    return name.replace("/", "-").replace(" ", "-")
-
-
-# --- what stands where ---
-
-
-class ShownStudy(NamedTuple):
-    """A chapter on one of the pages, with its figures, tables and links there."""
-
-    chapter: Chapter
-    figures: tuple[ShownFigure, ...]
-    tables: tuple[ShownTable, ...]
-    links: tuple[FileLink, ...] = ()
-
-
-class Arrangement:
-    """All chapters of a report, arranged.
-
-    Arguments:
-        out: the folder of both pages.
-        sections: in the order in which they are to be read.
-
-    Raises OSError if a picture cannot be read.
-    """
-
-    def __init__(self, out: Path, sections: Sequence[ReportSection]) -> None:
-        self.out, self.sections = out, sections
-        self.by_name = {one.chapter.study: one for one in sections}
-        chapters = [one.chapter for one in sections]
-        self.leading = next(iter([one for one in chapters if one.tiles] + chapters), None)
-        self.places = Places()
-        self.first = list(self._first())
-        self.places.number(PAGE, "Fig.", self.first)
-        for one in chapters:
-            self.places.number(PAGE, "Fig.", self._key_figure(one))
-            self.places.number(PAGE, "Table", _names(one, one.sheets[:1]))
-        for one in chapters:
-            self.places.number(APPENDIX, "Fig.", _names(one, one.pictures))
-            self.places.number(APPENDIX, "Table", _names(one, one.sheets))
-
-    def _first(self) -> Iterator[str]:
-        """Figures of the first screen: the machine, and the key figure of the leading study."""
-        if self.leading is not None:
-            names, machine = _names(self.leading, self.leading.pictures), f"{self.leading.study}/{MACHINE}"
-            yield from (name for name in names if name == machine)
-            yield from [name for name in names if name != machine][:1]
-
-    def _key_figure(self, chapter: Chapter) -> list[str]:
-        """The first figure of a study that is not on the first screen."""
-        return [name for name in _names(chapter, chapter.pictures) if name not in self.first][:1]
-
     # --- the first screen ---
-
-    def figure_on_top(self, machine: bool) -> ShownFigure | None:
-        """The machine, or the key figure of the leading study."""
-        found = [name for name in self.first if name.endswith(f"/{MACHINE}") == machine]
-        return self._figure(PAGE, found[0]) if found else None
 
     @property
     def sentences(self) -> list[tuple[str, str]]:
@@ -174,8 +150,8 @@ class Arrangement:
         Each with its study.
         """
         answers = {
-            one.chapter.study: END_OF_SENTENCE.split(one.chapter.answer)
-            for one in self.sections
+            study: END_OF_SENTENCE.split(one.chapter.answer)
+            for study, one in self.by_name.items()
             if one.chapter.answer
         }
         leading = self.leading.study if self.leading is not None else ""
@@ -184,113 +160,74 @@ class Arrangement:
         others.sort(key=lambda one: not self.by_name[one[1]].chapter.claims)
         return (ahead + others)[:SENTENCES]
 
-    @cached_property
-    def claims(self) -> list[tuple[JudgedClaim, str]]:
-        """All claims of the paper that were judged, with their study."""
-        return [(claim, one.chapter.study) for one in self.sections for claim in one.chapter.claims]
+    @property
+    def claims(self) -> list[tuple[JudgedClaim, str, tuple[str, str, str]]]:
+        """All claims of the paper that were judged, with study, and class, symbol, word of the verdict."""
+        return [
+            (claim, study, VERDICTS[claim.verdict])
+            for study, one in self.by_name.items()
+            for claim in one.chapter.claims
+        ]
 
     @property
     def counts(self) -> list[tuple[str, str, str, int]]:
         """Class, symbol and word of each kind of verdict, and how many claims have it."""
-        kinds = [self.kind(claim) for claim, _ in self.claims]
+        kinds = [kind for _, _, kind in self.claims]
         return [(*kind, kinds.count(kind)) for kind in VERDICTS.values() if kind in kinds]
 
-    def kind(self, claim: JudgedClaim) -> tuple[str, str, str]:
-        """Class, symbol and word of a claim's verdict."""
-        beginnings = [start for start in VERDICTS if claim.verdict.lower().startswith(start)]
-        return VERDICTS[max(beginnings, key=len)] if beginnings else ("", "", claim.verdict)
+    # --- studies, their figures and tables ---
 
-    # --- studies ---
+    def shown_figures(self, file: str, study: str) -> list[ShownFigure]:
+        """The key figure of a study, on the page, or all others that are not there."""
+        if file == PAGE:
+            return [self.figure(file, name) for name in self.key_figure[study]]
+        return [self.figure(file, name) for name in self.figures[study] if self.places[name][0] == file]
 
-    @property
-    def studies(self) -> Iterator[ShownStudy]:
-        """The studies on the page: their key figure, their key table, and links to the rest."""
-        for one in self.sections:
-            figures, tables = self._key_figure(one.chapter), _names(one.chapter, one.chapter.sheets[:1])
-            yield self._study(PAGE, one, figures, tables, self._more(one))
-
-    @property
-    def rest(self) -> Iterator[ShownStudy]:
-        """All studies in the appendix: figures and tables that the page has not, or has in part."""
-        for one in self.sections:
-            chapter, known = one.chapter, self.places.known
-            figures = [name for name in _names(chapter, chapter.pictures) if known[name][0] == APPENDIX]
-            tables = [
-                name
-                for name, sheet in zip(_names(chapter, chapter.sheets), chapter.sheets, strict=True)
-                if known[name][0] == APPENDIX or len(sheet.rows) > MOST_ROWS
-            ]
-            yield self._study(APPENDIX, one, figures, tables)
-
-    def _study(
-        self,
-        file: str,
-        section: ReportSection,
-        figures: Sequence[str],
-        tables: Sequence[str],
-        links: tuple[FileLink, ...] = (),
-    ) -> ShownStudy:
-        return ShownStudy(
-            section.chapter,
-            tuple(self._figure(file, name) for name in figures),
-            tuple(self._table(file, section, name) for name in tables),
-            links,
-        )
-
-    def _more(self, section: ReportSection) -> tuple[FileLink, ...]:
-        """Links to the rest of a study, and to its runs."""
-        more = FileLink("method, findings, all figures and tables", f"{APPENDIX}#{section.chapter.study}")
-        runs = section.folder / "runs"
-        count = len(list(runs.glob("*.h5"))) if runs.is_dir() else 0
-        return (more, FileLink(f"{count} runs (HDF5)", self._href(runs) + "/")) if count else (more,)
-
-    # --- figures and tables ---
-
-    @cached_property
-    def live(self) -> dict[str, live_html.LiveHtml]:
-        """Live figures of both pages, by the page's file."""
-        of_all = {
-            f"{study}/{stem}": live for study, one in self.by_name.items() for stem, live in one.live.items()
-        }
-        known = self.places.known
-        return {
-            file: live_html.html({name: live for name, live in of_all.items() if known[name][0] == file})
-            for file in (PAGE, APPENDIX)
-        }
-
-    def _figure(self, file: str, name: str) -> ShownFigure:
+    def figure(self, file: str, name: str) -> ShownFigure:
+        """A figure on a page. Raises OSError if its picture cannot be read."""
         study, _, stem = name.partition("/")
         section = self.by_name[study]
-        picture = next(one for one in section.chapter.pictures if one.stem == stem)
+        caption = next(one.caption for one in section.chapter.pictures if one.stem == stem)
         return ShownFigure(
             image=image(section.folder / f"{stem}.png"),
-            caption=self.places.linked(file, picture.caption, study),
+            caption=self.linked(file, caption, study),
             live=Markup(self.live[file].places.get(name, "")),
             anchor=anchor(name),
-            label=self.places.known[name][1] + ".",
+            label=self.places[name][1] + ".",
             links=self._files(section.folder, stem, "csv", "pdf"),
         )
 
-    def _table(self, file: str, section: ReportSection, name: str) -> ShownTable:
-        """A table with links to its files; on the page no more than its first rows."""
-        chapter = section.chapter
-        sheet = chapter.sheets[_names(chapter, chapter.sheets).index(name)]
+    def shown_tables(self, file: str, study: str) -> list[ShownTable]:
+        """The first rows of a study's key table, on the page, or all that are not whole there."""
+        folder, shown = self.by_name[study].folder, []
+        for name, sheet in self.tables[study].items():
+            place, label = self.places[name]
+            cut = place == PAGE and len(sheet.rows) > MOST_ROWS
+            if place != file and not cut:
+                continue
+            caption, rows = self.linked(file, sheet.caption, study), sheet.rows
+            if file == PAGE and cut:
+                rows = rows[:MOST_ROWS]
+                more = Markup(' <a href="{}#{}">All {} rows.</a>')
+                caption += more.format(APPENDIX, anchor(name), len(sheet.rows))
+            cells = tuple(tuple(self.linked(file, cell, study) for cell in row) for row in rows)
+            title = self.linked(file, sheet.title, study)
+            shown.append(
+                ShownTable(
+                    sheet=replace(sheet, title=title, rows=cells, caption=caption, name=""),
+                    anchor=anchor(name),
+                    label=f"{label}.",
+                    links=self._files(folder, sheet.name, "csv"),
+                )
+            )
+        return shown
 
-        def linked(text: str) -> Markup:
-            return self.places.linked(file, text, chapter.study)
-
-        caption, rows = linked(sheet.caption), sheet.rows
-        if file == PAGE and len(rows) > MOST_ROWS:
-            rows = rows[:MOST_ROWS]
-            more = Markup(' <a href="{}#{}">All {} rows.</a>').format(APPENDIX, anchor(name), len(sheet.rows))
-            caption += more
-        cells = tuple(tuple(map(linked, row)) for row in rows)
-        return ShownTable(
-            sheet=replace(sheet, title=linked(sheet.title), rows=cells, caption=caption, name=""),
-            anchor=anchor(name),
-            label=self.places.known[name][1] + ".",
-            links=self._files(section.folder, sheet.name, "csv"),
-        )
+    def more(self, study: str) -> list[FileLink]:
+        """Links to the rest of a study, and to its runs."""
+        runs = self.by_name[study].folder / "runs"
+        count = len(list(runs.glob("*.h5")))
+        links = [FileLink("method, findings, all figures and tables", f"{APPENDIX}#{study}")]
+        return links + ([FileLink(f"{count} runs (HDF5)", self._href(runs) + "/")] if count else [])
 
     def _files(self, folder: Path, stem: str, *endings: str) -> tuple[FileLink, ...]:
         paths = [folder / f"{stem}.{ending}" for ending in endings]
@@ -298,8 +235,3 @@ class Arrangement:
 
     def _href(self, path: Path) -> str:
         return quote(Path(os.path.relpath(path, self.out)).as_posix())
-
-
-def _names(chapter: Chapter, parts: Sequence[Picture | Sheet]) -> list[str]:
-    """The parts as "study/stem" or "study/name"."""
-    return [f"{chapter.study}/{one.stem if isinstance(one, Picture) else one.name}" for one in parts]

@@ -11,13 +11,13 @@ from typing import Any
 from pydantic import BaseModel
 
 from studies.common import paper_machine
-from studies.common.words import Chapter, Words, read_stored, text_table, titled
+from studies.common.words import Chapter, filled, read_stored, text_table, titled
 from support_exudyn import CubicStep, HydraulicSupport, reference_support
-from support_exudyn.model.linkage import Part, lumped
+from support_exudyn.model.linkage import lumped
 from support_exudyn.postprocessing.page.live import LiveFigure
 from support_exudyn.postprocessing.page.pieces import Sheet
 from support_exudyn.simulation.provenance import provenance
-from user_forces import STEEL, STEEL_35CRMO, Material
+from user_forces import STEEL, STEEL_35CRMO
 from user_forces.values.value import InputError
 
 
@@ -52,26 +52,37 @@ class ReportSection:
 
 
 def around_chapters(sections: Sequence[ReportSection]) -> dict[str, object]:
-    """What is said around these chapters; the paper's machine is left out if none is about it.
+    """Texts around these chapters; the paper's machine is left out if none is about it.
 
     Returns title and question of all, date and time, notes and data on the assumptions, times and versions.
     """
     support = reference_support()
-    machines = tuple(dict.fromkeys(one.chapter.machine for one in sections if one.chapter.machine))
-    contacts = tuple(dict.fromkeys(one.chapter.contact for one in sections if one.chapter.contact))
-    of_paper = any(not one.chapter.machine for one in sections)
-    words = Words("reporting", "reporting/words.md.j2").blocks({
-        "machines": machines,
-        "contacts": contacts,
+    chapters = [one.chapter for one in sections]
+    of_paper = any(not one.machine for one in chapters)
+    words = filled("reporting/words.md.j2", {
+        "machines": list(dict.fromkeys(one.machine for one in chapters if one.machine)),
+        "contacts": list(dict.fromkeys(one.contact for one in chapters if one.contact)),
         "of_paper": of_paper,
         "start_height": millimetres(support.start_hinge_height),
         "total_mass": sum(part.mass for parts in support.parts.values() for part in parts),
         "platform": platform.platform(),
     })  # fmt: skip
-    title = next(iter(words))
+    times = [(one.chapter.study, f"{one.wall_s:.1f}") for one in sections]
+    times.append(("together", f"{sum(section.wall_s for section in sections):.1f}"))
+    versions: dict[str, dict[str, None]] = {}  # several where studies were run with different ones
+    for section in sections:
+        for name, version in section.versions.items():
+            versions.setdefault(name, {})[version] = None
     data = tables(support) if of_paper else {}
-    sheets = {"times": _times(sections), "versions": _versions(sections), **data}
+    sheets = {
+        "times": text_table(("study", "wall time [s]"), times),
+        "versions": text_table(
+            ("package", "version"), ((name, ", ".join(found)) for name, found in versions.items()), left=2
+        ),
+        **data,
+    }
     shown = {name: titled(table, name, words) for name, table in sheets.items()}
+    title = next(iter(words))
     return {
         "title": title,
         "asked": " ".join(words[title]),
@@ -81,22 +92,6 @@ def around_chapters(sections: Sequence[ReportSection]) -> dict[str, object]:
         "times": shown["times"],
         "versions": shown["versions"],
     }
-
-
-def _times(sections: Sequence[ReportSection]) -> Sheet:
-    rows = [(s.chapter.study, f"{s.wall_s:.1f}") for s in sections]
-    total = sum(section.wall_s for section in sections)
-    return text_table(("study", "wall time [s]"), (*rows, ("together", f"{total:.1f}")))
-
-
-def _versions(sections: Sequence[ReportSection]) -> Sheet:
-    """Versions recorded by the studies; more than one where the studies were run with different ones."""
-    found: dict[str, dict[str, None]] = {}
-    for section in sections:
-        for name, version in section.versions.items():
-            found.setdefault(name, {})[version] = None
-    rows = tuple((name, ", ".join(versions)) for name, versions in found.items())
-    return text_table(("package", "version"), rows, left=2)
 
 
 PAPER, ASSUMED = "paper", "assumed"
@@ -116,36 +111,24 @@ CLEARANCE_MM = 1.5  # that of section 3; all else in the contact data does not d
 
 
 def tables(support: HydraulicSupport) -> dict[str, Sheet]:
-    """The reference support's pivots and parts, and the data of contact and drive."""
-    return {"pivots": pivots(support), "masses": masses(support), "contact_and_drive": contact_and_drive()}
-
-
-def pivots(support: HydraulicSupport) -> Sheet:
-    """Where the pivots are in the reference posture."""
-    rows = tuple(
+    """The reference support's pivots in its reference posture, its parts, and the data of contact and drive."""
+    pivots = [
         (meaning, ASSUMED, *(millimetres(x) for x in getattr(support, name)))
         for name, meaning in PIVOTS.items()
-    )
-    return text_table(("pivot", "source", "x [mm]", "y [mm]"), rows, left=2)
-
-
-def masses(support: HydraulicSupport) -> Sheet:
-    """What the bodies are made of, and each body as a whole where it has several parts."""
-    rows = []
+    ]
+    masses: list[tuple[str, ...]] = []
     for body, parts in support.parts.items():
-        name = body.replace("_", " ")
-        if len(parts) > 1:
-            rows += [_part(f"{name}, part {n}", part) for n, part in enumerate(parts, 1)]
-            rows.append(_part(f"{name}, whole", lumped(parts)))
-        else:
-            rows.append(_part(name, parts[0]))
-    header = ("body", "source", "mass [kg]", "centre x [mm]", "centre y [mm]", "inertia [kg m²]")
-    return text_table(header, rows, left=2)
-
-
-def _part(name: str, part: Part) -> tuple[str, ...]:
-    centre = (f"{1e3 * x:.1f}" for x in part.centre)
-    return name, ASSUMED, f"{part.mass:g}", *centre, f"{part.inertia:.1f}"
+        name, several = body.replace("_", " "), len(parts) > 1
+        named = [(f"{name}, part {n}" if several else name, part) for n, part in enumerate(parts, 1)]
+        for label, part in (*named, *([(f"{name}, whole", lumped(parts))] if several else ())):
+            x, y = (f"{1e3 * c:.1f}" for c in part.centre)
+            masses.append((label, ASSUMED, f"{part.mass:g}", x, y, f"{part.inertia:.1f}"))
+    of_masses = ("body", "source", "mass [kg]", "centre x [mm]", "centre y [mm]", "inertia [kg m²]")
+    return {
+        "pivots": text_table(("pivot", "source", "x [mm]", "y [mm]"), pivots, left=2),
+        "masses": text_table(of_masses, masses, left=2),
+        "contact_and_drive": contact_and_drive(),
+    }
 
 
 def contact_and_drive() -> Sheet:
@@ -157,9 +140,19 @@ def contact_and_drive() -> Sheet:
     friction: Any = pin.contact.friction
     drive = CubicStep()
     stiffness = "stiffness K at {:.1f} mm of radial clearance (Eq. 5)"
+    materials = {
+        f"{one.name} ({part}, Table 1)": one for one, part in ((STEEL, "bore"), (STEEL_35CRMO, "journal"))
+    }
     printed = [
-        *_material(STEEL, "bore"),
-        *_material(STEEL_35CRMO, "journal"),
+        *(
+            row
+            for name, one in materials.items()
+            for row in (
+                (f"elastic modulus, {name}", "GPa", one.elastic_modulus / 1e9),
+                (f"Poisson's ratio, {name}", "1", one.poisson_ratio),
+                (f"density, {name}; not used", "kg/m³", one.density),
+            )
+        ),
         ("bore radius (shaft radius and clearance of Table 2)", "mm", 1e3 * bearing.bore_radius),
         *((stiffness.format(one), "N/mm^1.5", paper.stiffness(one) / 1e3**1.5) for one in paper.STIFFNESS),
         ("exponent of the normal force (Eq. 4)", "1", normal.exponent),
@@ -192,15 +185,6 @@ def contact_and_drive() -> Sheet:
         for quantity, unit, value in known
     ]
     return text_table(("quantity", "source", "unit", "value"), rows, left=3)
-
-
-def _material(material: Material, part: str) -> list[tuple[str, str, float]]:
-    name = f"{material.name} ({part}, Table 1)"
-    return [
-        (f"elastic modulus, {name}", "GPa", material.elastic_modulus / 1e9),
-        (f"Poisson's ratio, {name}", "1", material.poisson_ratio),
-        (f"density, {name}; not used", "kg/m³", material.density),
-    ]
 
 
 def millimetres(metres: float) -> str:

@@ -9,12 +9,9 @@ import pytest
 
 from studies.clearance import run as study
 from studies.clearance.figures import CASES, DRY, IDEAL, IDEAL_DRY, SMOOTH
-from studies.common import rise
-from studies.common.paper_machine import SIZES_MM, SLIDING_COEFFICIENT, case_name, ideal_name, ideal_of
-from studies.common.runs import file_name
+from studies.common.paper_machine import SIZES_MM, SLIDING_COEFFICIENT, case_name, ideal_of
 from studies.common.subject import paper_subject
 from studies.common.words import Chapter
-from support_exudyn import Result
 from tests.studies.forms import FORMS, Numbers, numbers_of, results
 
 RUBBED = [case_name(size, SLIDING_COEFFICIENT) for size in SIZES_MM]
@@ -46,12 +43,6 @@ def row(numbers: Numbers, name: str, cases: list[str]) -> list[float]:
 
 
 # --- clearance against the ideal pin ---
-
-
-def test_clearance_leaves_the_trend_as_it_is(numbers: Numbers) -> None:
-    # departures from the ideal speed are a hundredth of the speed
-    speed = numbers["largest_angular_speed_in_rise", IDEAL]["value"]
-    assert max(row(numbers, "rms_angular_velocity_departure", [SMOOTH, DRY])) < 0.02 * speed
 
 
 def test_clearance_is_compared_at_the_same_friction(outs: tuple[Path, Path], numbers: Numbers) -> None:
@@ -90,7 +81,8 @@ def test_clearance_makes_acceleration_fluctuate_with_friction(numbers: Numbers) 
         ("mean_pin_force", SMOOTH, 51503.8, 1e-3),
         ("std_pin_force", SMOOTH, 6368.9, 1e-2),
         ("largest_pin_force", SMOOTH, 444568, 1e-2),
-        ("mean_pin_force", DRY, 52660.1, 1e-3),
+        ("mean_pin_force", DRY, 52660.1, 1e-4),
+        ("std_pin_force", DRY, 6552.7, 2e-3),
         # mean shift of the tip, of a quasi-static posture: -0.98 to -1.27 mm per 0.5 mm; the depth adds a tenth
         ("mean_tip_shift", SMOOTH, -3.63, 0.19),
         ("mean_tip_shift", DRY, -3.63, 0.19),
@@ -100,10 +92,6 @@ def test_numbers_agree_with_independent_programs(
     numbers: Numbers, name: str, case: str, known: float, within: float
 ) -> None:
     assert numbers[name, case]["value"] == pytest.approx(known, rel=within)
-
-
-def test_impacts_at_the_start_exceed_the_load_several_times(numbers: Numbers) -> None:
-    assert min(row(numbers, "largest_pin_force", [SMOOTH, DRY])) > 7.0 * 58778.944
 
 
 def test_a_pin_along_its_length_shakes_thirty_times_as_much(numbers: Numbers) -> None:
@@ -130,14 +118,6 @@ def test_table_2_is_met_to_every_printed_digit(numbers: Numbers, of_sizes: Numbe
         assert number["value"] == pytest.approx(number["paper"], abs=5.1e-4)
 
 
-def test_table_3_agrees_with_an_independent_integrator(of_sizes: Numbers) -> None:
-    # mean and standard deviation of an independent integration of the same data, sampled every 1 ms, too
-    for size, mean, spread in ((1.5, 52660.1, 6552.7), (0.5, 52544.6, 6556.8)):
-        case = case_name(size, 0.25)
-        assert of_sizes["mean_pin_force", case]["value"] == pytest.approx(mean, rel=1e-4)
-        assert of_sizes["std_pin_force", case]["value"] == pytest.approx(spread, rel=2e-3)
-
-
 def test_one_name_is_one_run_in_all_studies() -> None:
     # a quantity of a case has one value on all pages, for it comes from the same run
     of_sizes, of_influence = study.size_cases(paper_subject()), study.influence_cases()
@@ -156,14 +136,6 @@ def test_the_mean_force_grows_by_the_same_little_amount_each_time(of_sizes: Numb
     assert (large - small) / 3 == pytest.approx(64.0, abs=1.5)  # printed as a whole number
     # as little as the paper says: its own growth is 0.8 %
     assert forces[-1] < 1.01 * forces[0]
-
-
-def test_the_spread_has_its_least_at_one_millimetre_as_in_the_paper(of_sizes: Numbers) -> None:
-    spreads = row(of_sizes, "std_pin_force", RUBBED)
-    # 15 N below its neighbours, ten times what the fine run is off by
-    assert min(spreads) == spreads[1]
-    assert max(spreads) == spreads[-1]
-    assert max(spreads) < 1.01 * min(spreads)
 
 
 def test_the_tip_moves_to_the_rear_in_proportion(of_sizes: Numbers) -> None:
@@ -192,18 +164,3 @@ def test_the_pin_shakes_with_friction_only(of_sizes: Numbers, quantity: str) -> 
     rubbed, free = (row(of_sizes, f"rms_{quantity}", cases) for cases in (RUBBED, FREE))
     for n in (0, 2, 3):  # 8 to 100 times as much
         assert rubbed[n] > 5.0 * free[n]
-
-
-def test_a_larger_clearance_does_not_shake_the_link_more(of_sizes: Numbers) -> None:
-    # the paper has it the other way round; by 1.7 here, and half a millisecond's step moves it by 3 %
-    ripples = row(of_sizes, "rms_angular_acceleration", RUBBED)
-    assert ripples[0] > 1.3 * max(ripples[2:])
-
-
-def test_the_angular_velocity_keeps_its_course(outs: tuple[Path, Path]) -> None:
-    ideal, *others = (
-        Result.load(outs[1] / "runs" / f"{file_name(case)}.h5") for case in (ideal_name(0.25), *RUBBED)
-    )
-    for run in others:  # an RMS fluctuation of 1 % of the range, filtered
-        assert rise.PAPER.likeness(run, ideal, rise.SPEED) > 0.9999
-        assert rise.PAPER.likeness(run, ideal, rise.FORCE) > 0.99

@@ -65,14 +65,6 @@ def test_the_sudden_start_strikes_rigid_columns_only(numbers: Numbers) -> None:
         assert (name, loose) in numbers  # its contact gives way
 
 
-def test_peaks_on_oil_have_a_limit(numbers: Numbers) -> None:
-    for pin in PINS:
-        for name in ("largest_pin_force_in_motion", "largest_rear_column_force"):
-            peak = numbers[name, case_name("mode 1", pin, "oil")]
-            # second order: at 1 ms 40 Hz has 25 steps a swing
-            assert peak["numerical_error"] < 0.02 * peak["value"]
-
-
 @pytest.mark.parametrize(
     ("window", "loose", "tight"),
     [("in_motion", 175.8, 170.0), ("after_stop", 212.7, 104.7)],  # [kN]; twice as much where the support stops
@@ -84,29 +76,6 @@ def test_clearance_matters_at_the_stop_more_than_at_the_start(
         number = numbers[f"largest_pin_force_{window}", case_name("mode 1", pin, "oil")]
         assert number["value"] == pytest.approx(1e3 * expected, rel=0.02)
         assert abs(number["value"] - number["witness"]) <= number["numerical_error"]
-
-
-MISSED = pytest.mark.xfail(
-    reason="steps of 1 ms: errors are 1.2 kN of 105 kN and 229 kN of 213 kN", strict=True
-)
-
-
-@pytest.mark.parametrize("window", ["in_motion", pytest.param("after_stop", marks=MISSED)])
-def test_errors_of_peaks_are_below_one_percent(numbers: Numbers, window: str) -> None:
-    for pin in (WITH_CLEARANCE, IDEAL):
-        number = numbers[f"largest_pin_force_{window}", case_name("mode 1", pin, "oil")]
-        assert number["numerical_error"] < 0.01 * number["value"]
-
-
-def test_the_peak_has_a_band_from_assumptions_and_depends_on_the_contact(numbers: Numbers) -> None:
-    def peak(pin: str, oil: str) -> float:
-        return float(numbers[study.PEAK, study.start_name(pin, oil)]["value"])
-
-    for pin in START_PINS:
-        usual, soft, stiff = (peak(pin, oil) for oil in OIL)
-        assert soft < usual < stiff < 2.1 * soft
-    ideal, spheres, line = (peak(pin, study.USUAL) for pin in START_PINS)
-    assert spheres < ideal < line
 
 
 def test_the_band_is_of_the_oil_that_it_says() -> None:
@@ -135,14 +104,6 @@ def test_an_inlet_is_not_a_displacement(numbers: Numbers) -> None:
     assert value("least_pressure_front", "mode 1") < 0.0 < value("least_pressure_front", "mode 2")
     closed_at_once, ramped = (value("largest_pin_force_after_stop", mode, WITH_CLEARANCE) for mode in MODES)
     assert ramped < 0.5 * closed_at_once
-
-
-def test_motion_on_cylinders_is_known_well(numbers: Numbers) -> None:
-    for pin in PINS:
-        for mode in MODES:
-            found = numbers["settled_extension_rear", case_name(mode, pin, "cylinder")]
-            # second order; what the pin does in between moves it by micrometres
-            assert found["numerical_error"] < 1e-3 * found["value"]
 
 
 # --- machines of one's own ---

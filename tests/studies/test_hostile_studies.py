@@ -61,7 +61,7 @@ def put_studies(monkeypatch: pytest.MonkeyPatch, work: Mapping[str, Callable[[Op
     monkeypatch.setattr(all_studies, "compiling", nullcontext)
     monkeypatch.setattr(all_studies, "STUDIES", {name: OnlyWork(name, one) for name, one in work.items()})
     monkeypatch.setattr(all_studies, "DEFAULT", tuple(work))
-    monkeypatch.setattr(all_studies, "rebuild", lambda out, order: 0)
+    monkeypatch.setattr(all_studies, "rebuild", lambda out: 0)
 
 
 @pytest.mark.parametrize("error", [InputError("wrong: allowed: right"), RuntimeError("a bug")])
@@ -74,7 +74,7 @@ def test_a_study_that_fails_does_not_keep_the_others_from_the_report(
         raise error
 
     put_studies(monkeypatch, {"one": failing, "two": lambda chosen: ran.append(chosen.out.name)})
-    monkeypatch.setattr(all_studies, "rebuild", lambda out, order: ran.append("report") or 0)
+    monkeypatch.setattr(all_studies, "rebuild", lambda out: ran.append("report") or 0)
     assert all_studies.main(["--workers", "1", "--out", str(tmp_path)]) == 1
     assert ran == ["two", "report"]
     said = capsys.readouterr()

@@ -34,7 +34,6 @@ FLAGS = (
     "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--hide-scrollbars",
     "--disable-background-networking", "--disable-component-update", "--disable-sync",
 )  # fmt: skip
-WIDTHS = (400, 1000, 1400)
 PATIENCE = 30.0  # seconds
 TIMES = tuple(0.5 * n for n in range(11))
 FORCES = tuple(51.25 + n for n in range(11))
@@ -138,26 +137,6 @@ def test_no_complaint_and_nothing_is_loaded(opened: Opened, made: Path, name: st
     asked = {e["params"]["request"]["url"] for e in events if e["method"] == "Network.requestWillBeSent"}
     assert (made / name).as_uri() in asked
     assert [url for url in asked if not url.startswith(("data:", "blob:", (made / name).as_uri()))] == []
-
-
-@pytest.mark.parametrize("name", ["report.html", "appendix.html"])
-@pytest.mark.parametrize("width", WIDTHS)
-def test_nothing_overflows(opened: Opened, name: str, width: int) -> None:
-    browser = opened(name, width)
-    assert browser.execute_script("return document.documentElement.scrollWidth") <= width
-    unseen = """
-      const out = [];
-      for (const box of document.querySelectorAll(".scroll")) {
-        const wide = box.scrollWidth > box.clientWidth + 1;
-        if (wide !== box.classList.contains("more")) out.push(box.ariaLabel);
-      }
-      for (const cell of document.querySelectorAll("th, td, .tiles dd, .tiles span, figcaption, p")) {
-        const style = getComputedStyle(cell);
-        if (cell.scrollWidth > cell.clientWidth + 1 && cell.clientWidth && style.display !== "inline")
-          out.push(cell.outerHTML.slice(0, 80));
-      }
-      return out;"""
-    until(lambda: browser.execute_script(unseen) == [])
 
 
 def test_the_pointer_tells_the_value_that_the_file_holds(opened: Opened) -> None:

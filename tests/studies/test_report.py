@@ -15,7 +15,7 @@ from PIL import Image
 from studies import report
 from studies.catalogue import STUDIES
 from studies.common.numbers import NUMBERS
-from studies.common.words import REFERENCE, Chapter, JudgedClaim, Picture
+from studies.common.words import FILE, REFERENCE, Chapter, JudgedClaim, Picture
 from support_exudyn.postprocessing.page.live import LiveCurve, LiveFigure, LivePanel
 from support_exudyn.postprocessing.page.pieces import KeyNumber, Sheet
 from support_exudyn.simulation.provenance import versions
@@ -74,7 +74,7 @@ def put(out: Path, content: Chapter) -> Path:
     folder = out / content.study
     (folder / "runs").mkdir(parents=True)
     (folder / "runs" / "a run.h5").touch()
-    content.save(folder)
+    (folder / FILE).write_text(content.model_dump_json(), encoding="utf-8")
     for picture in content.pictures:
         Image.fromarray(np.full((60, 200, 3), 255, np.uint8)).save(folder / f"{picture.stem}.png")
         (folder / f"{picture.stem}.csv").touch()
@@ -119,7 +119,7 @@ class Page(HTMLParser):
 
 def test_a_chapter_is_read_back_as_it_was(tmp_path: Path) -> None:
     whole = chapter("clearance_influence", HOSTILE).model_copy(update={"claims": chapter("claims").claims})
-    assert whole.save(tmp_path) == tmp_path / "chapter.json"
+    (tmp_path / FILE).write_text(whole.model_dump_json(), encoding="utf-8")
     assert Chapter.load(tmp_path) == whole
 
 

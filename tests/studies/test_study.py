@@ -21,7 +21,6 @@ from studies.common.numbers import (
     Number,
     against,
     compared,
-    counted,
     error_of_records,
     measured,
     rounded,
@@ -131,14 +130,6 @@ def test_a_scenario_of_ones_own_keeps_all_but_the_clearance_and_the_friction(tmp
     assert (loose.drive, loose.duration) == (mine.drive, mine.duration)
 
 
-def test_a_machine_of_ones_own_does_the_papers_rise(tmp_path: Path) -> None:
-    shutil.copy(MACHINES / "zf18000.toml", tmp_path / "mine.toml")
-    subject = read("--machine", str(tmp_path / "mine.toml"), "--pin", "rear_shield").subject
-    assert (subject.pin, subject.name) == ("rear_shield", "mine")
-    assert subject.motion.duration == 5.0
-    assert subject.with_clearance(1.0, 0.0).pins.keys() == {"rear_shield"}
-
-
 @pytest.mark.parametrize("form", ["name", "file", "scenario", "scenario with the pin"])
 def test_a_pin_of_ones_own_machine_has_the_bore_of_its_file(form: str, tmp_path: Path) -> None:
     shutil.copy(MACHINES / "zf18000.toml", tmp_path / "mine.toml")
@@ -217,11 +208,6 @@ def thinned(measure: Callable[[Result], float], every: int, run: Result) -> floa
     return measure(replace(run, channels=channels, coarser=None))
 
 
-def test_every_case_is_run_at_its_steps_at_half_and_at_a_quarter_of_them(runs: dict[str, Result]) -> None:
-    for run in runs.values():
-        assert [one.scenario.step for one in halvings(run)] == [1e-3, 5e-4, 2.5e-4]
-
-
 def test_a_number_has_the_error_that_accuracies_estimate(runs: dict[str, Result]) -> None:
     run = runs["fast"]
     found, told = measured("moment", "fast", "N m", run, moment, 2.0), run.estimate(moment)
@@ -243,10 +229,3 @@ def test_errors_of_both_runs_add_up_in_a_comparison(runs: dict[str, Result]) -> 
     assert found.numerical_error == pytest.approx(apart, rel=1e-2)  # but for shares of rounding
     own = compared("more", "fast", "N m", fast, fast, lambda run, other: moment(run) - moment(other))
     assert own.value == 0.0
-
-
-def test_a_count_is_off_by_as_much_as_its_coarser_runs_are(runs: dict[str, Result]) -> None:
-    steps = [run.counts.steps for run in halvings(runs["slow"])]
-    assert counted("steps", "slow", runs["slow"], lambda run: run.counts.steps) == Number(
-        "steps", "slow", steps[-1], "1", steps[-1] - steps[0]
-    )

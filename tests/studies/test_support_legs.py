@@ -70,11 +70,3 @@ def test_the_sweep_over_legs_draws_from_their_ranges() -> None:
     assert set(plan.names) == scenario.sourced.keys() | explicit.keys()
     assert len(plan.points) == 24
     assert all(plan.scenario(point).actuators for point in plan.points)  # none is refused
-
-
-def test_round_bores_give_the_printed_setting_forces() -> None:
-    published = legs_data().file.published
-    assert len(published) == 10
-    for one in published:
-        setting = one.pressure * bore_area(one.bore, one.legs)
-        assert setting == pytest.approx(one.setting, rel=4e-3), one.model

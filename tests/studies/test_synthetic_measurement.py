@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
-from studies.synthetic_measurement import EXAMPLES, INSTRUMENTS, MEASURED, main, measured_scenario
+from studies.synthetic_measurement import EXAMPLES, INSTRUMENTS, MEASURED, measured_scenario
 from support_exudyn.files.series.read import read_series
 from support_exudyn.files.series.units import converted
 from support_exudyn.postprocessing.instruments.station import read_station
@@ -33,16 +31,3 @@ def test_it_has_what_the_instruments_read() -> None:
     digit = STATION.instruments["base.tilt"].resolution
     expected = np.hypot(noise, digit / np.sqrt(12.0))
     assert np.std(converted(still, "rad")) == pytest.approx(expected, rel=5.0 / np.sqrt(2.0 * still.time.size))
-
-
-@pytest.mark.slow
-def test_the_script_makes_it_again(tmp_path: Path) -> None:
-    assert main(["--out", str(tmp_path / "again.csv")]) == 0
-    for name, one in read_series(tmp_path / "again.csv").series.items():
-        apart = np.abs(
-            converted(one, STATION.instruments[name].UNIT)
-            - converted(SHIPPED[name], STATION.instruments[name].UNIT)
-        )
-        digits = apart / STATION.instruments[name].resolution
-        assert digits.max() < 1.5
-        assert (digits > 0.5).mean() <= 0.05  # where rounding decides otherwise

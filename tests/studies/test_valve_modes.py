@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 from studies.common.options import Options
-from studies.drive_mode.cases import extension
 from studies.drive_mode.valves import PINS, PUMP, PUMPS, START, case_name, scenarios, study
 from support_exudyn import Result, simulate
 
@@ -47,17 +46,6 @@ def test_the_pump_gives_no_more_than_it_can_and_its_oil_adds_up() -> None:
     legs = run["front_column.oil"] + run["rear_column.oil"]
     assert np.abs(legs - legs[0] - from_pump).max() < 1e-10 * legs[0]
     assert held[-1] - held[0] <= run["pump.given"][-1] + 1e-12
-
-
-@pytest.mark.slow
-def test_the_limited_pump_raises_both_rows_by_what_it_gives() -> None:
-    run = simulate(scenarios()[case_name("mode 1", PUMPS[0], PINS[0])])
-    rows = "front_column", "rear_column"
-    areas = [run.scenario.valved[name].bore_area for name in rows]
-    middle = (run.time > 6.0) & (run.time < 12.0)
-    time = run.time[middle]
-    swept = sum(area * extension(run, row)[middle] for area, row in zip(areas, rows, strict=True))
-    assert (swept[-1] - swept[0]) / (time[-1] - time[0]) == pytest.approx(PUMP.flow, rel=1e-3)
 
 
 @pytest.mark.slow

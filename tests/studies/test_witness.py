@@ -16,7 +16,7 @@ from studies.common.numbers import Number, measured_all
 from studies.common.options import Options
 from studies.common.rise import FORCE
 from studies.common.subject import paper_subject
-from studies.common.witness import Witness, is_within, run_on_exudyn, with_errors
+from studies.common.witness import is_within, run_and_measure, with_errors
 from studies.common.words import Chapter
 from support_exudyn import CubicStep, Result, Scenario
 from tests.at_once import at_once
@@ -47,8 +47,7 @@ def judged(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, list[Number]
     cases: dict[str, Scenario] = {
         name: replace(rise, drive=SHORT, duration=0.25) for name, rise in rises.items()
     }
-    numbers = with_errors(measure(run_on_exudyn(cases, chosen)))
-    return out, Witness(cases, measure, lambda numbers: {}).compared(numbers, chosen)
+    return out, run_and_measure(cases, measure, chosen)[1]
 
 
 def test_the_witness_lies_within_the_errors(judged: tuple[Path, list[Number]]) -> None:
