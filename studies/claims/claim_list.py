@@ -8,6 +8,7 @@ from studies.claims.evidence import RELATIONS, Evidence, Measured, Verdict, ever
 from studies.claims.plausible_runs import CLEARANCES, IDEAL
 from studies.common import paper_machine
 from studies.common.data import tables
+from studies.common.numbers import DIGITS, rounded
 
 LAST_DIGIT = 5.1e-4  # of a printed stiffness [N/mm^1.5]
 
@@ -42,9 +43,9 @@ class Judge:
         """The numbers that it compares, in words; cases are named unless they are the four clearances."""
         texts = []
         for name, row in self.compared(evidence).items():
-            named = [
-                m.format(5) if tuple(row) == CLEARANCES else f"{m.format(5)} ({c})" for c, m in row.items()
-            ]
+            shown = {case: rounded(m.value, m.error, DIGITS).partition(" ± ")[0] for case, m in row.items()}
+            bare = tuple(row) == CLEARANCES
+            named = [text if bare else f"{text} ({case})" for case, text in shown.items()]
             what = " ".join(IN_WORDS.get(word, word) for word in name.split("_"))
             texts.append(f"{what} {', '.join(named)} {unit(name)}".rstrip())
         return "; ".join(texts)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -28,17 +27,6 @@ class Measured:
         """Whether it is larger than a number; None if the errors overlap."""
         gap = self - (limit if isinstance(limit, Measured) else Measured(limit))
         return None if abs(gap.value) <= gap.error else gap.value > 0.0
-
-    def format(self, digits: int = 4) -> str:
-        """The number to so many significant digits, fewer if the error does not leave them."""
-        size = max(abs(self.value), self.error)
-        if size == 0.0:
-            return "0"
-        places = max(0, digits - 1 - math.floor(math.log10(size)))
-        if self.error > 0.0:
-            places = min(places, -math.floor(math.log10(self.error)))  # below 0: tens, hundreds
-        text = f"{round(self.value, places):.{max(0, places)}f}"
-        return text.lstrip("-") if float(text) == 0.0 else text
 
 
 Evidence = Mapping[str, Mapping[str, Measured]]  # all measures of a machine, by case and by name

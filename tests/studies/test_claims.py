@@ -83,15 +83,6 @@ def test_our_numbers_are_those_of_the_engine(numbers: Numbers) -> None:
     assert numbers["impulse", "1.5 mm, mode 1"]["value"] == pytest.approx(1154.94, rel=1e-4)
 
 
-@pytest.mark.slow  # the hypercube alone is started again in test_hypercube.py
-def test_a_finished_hypercube_is_not_run_again(out: Path, form: str) -> None:
-    before = {path: path.stat().st_mtime_ns for path in (out / "machines").iterdir()}
-    text = (out / "table.csv").read_text(encoding="utf-8")
-    written("claims", form, out, MACHINES[form])
-    assert {path: path.stat().st_mtime_ns for path in (out / "machines").iterdir()} == before
-    assert (out / "table.csv").read_text(encoding="utf-8") == text
-
-
 class Drawn:
     """How many machines were run, with a number of statements that need more of them."""
 

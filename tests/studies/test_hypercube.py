@@ -101,12 +101,3 @@ def test_a_machine_that_fails_is_a_row_with_its_reason(tmp_path: Path, ran: list
 
 
 # --- keys ---
-
-
-def test_a_changed_program_runs_all_anew(
-    tmp_path: Path, ran: list[float], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    run(GOOD, tmp_path)
-    monkeypatch.setattr(hypercube, "program", lambda: "another program")
-    run(GOOD, tmp_path)
-    assert ran == [0.7, 0.8, 0.9] * 2

@@ -12,7 +12,6 @@ from hypothesis import strategies as st
 from studies.claims import plausible
 from studies.claims.plausible import (
     BODIES,
-    CONTACT,
     FACTORS,
     LOT,
     MEMBERS,
@@ -20,13 +19,12 @@ from studies.claims.plausible import (
     REFERENCE_SCALE,
     Factor,
     machine,
-    oil_columns,
     pin,
     samples,
 )
 from studies.claims.plausible_runs import CASES, scenario
 from studies.common import paper_machine
-from support_exudyn import CubicStep, HydraulicSupport, Line, UniformSpeed, reference_support
+from support_exudyn import CubicStep, HydraulicSupport, UniformSpeed, reference_support
 from support_exudyn.model.linkage import lumped
 from support_exudyn.model.pin_surroundings import links_stiffness
 from user_forces import STEEL, STEEL_35CRMO, InputError, LankaraniNikravesh, PinInBore
@@ -63,12 +61,6 @@ def test_every_stratum_of_every_range_has_one_machine_of_a_lot(factor: Factor, s
             share = math.log(x / low) / math.log(high / low) if factor.powers else (x - low) / (high - low)
             # rounding may carry a value over the border of its stratum
             assert n / LOT - 1e-12 <= share <= (n + 1) / LOT + 1e-12
-
-
-def test_more_machines_begin_with_the_same_ones() -> None:
-    assert samples(LOT + 7, 3)[:16] == samples(16, 3)
-    assert samples(16, 3) != samples(16, 4)
-    assert [*samples(16, 3)[0]] == [*(factor.name for factor in FACTORS), CONTACT]
 
 
 def test_machines_of_the_first_hypercube_have_what_the_paper_prints() -> None:
@@ -129,13 +121,6 @@ def test_a_machine_that_cannot_be_closed_is_refused() -> None:
 # --- the pin of a sample ---
 
 
-@pytest.mark.parametrize("size", [0.5, 1.0, 1.5, 2.0])
-def test_the_reference_pin_is_the_papers(size: float) -> None:
-    assert pin(REFERENCE, size, reference_support()) == paper_machine.clearance_joint(
-        size, paper_machine.SLIDING_COEFFICIENT, law=paper_machine.PAPERS_LAW
-    )
-
-
 def test_cylinders_are_as_long_as_the_machines_pin_and_held_by_pin_and_link() -> None:
     support = machine(changed(scale=0.8))
     made = pin(changed(scale=0.8, contact="cylinders", backing=2.0, law="flores"), 1.5, support)
@@ -148,15 +133,3 @@ def test_cylinders_are_as_long_as_the_machines_pin_and_held_by_pin_and_link() ->
         + 1.0 / links_stiffness(support, "rear_base", STEEL)
     )
     assert law.backing_stiffness == pytest.approx(2.0 * stiffness, rel=EXACT)
-
-
-def test_columns_of_oil_are_as_large_as_the_machine() -> None:
-    assert oil_columns(REFERENCE) == paper_machine.oil_columns()
-    column = oil_columns(
-        changed(scale=2.0 * REFERENCE_SCALE, bulk_modulus=2.0, line_volume=5.0, line_drop=0.5)
-    )["rear_column"]
-    ours = paper_machine.oil_columns()["rear_column"]
-    assert column.bore_area == pytest.approx(4.0 * ours.bore_area, rel=EXACT)
-    assert column.oil_length == pytest.approx(2.0 * ours.oil_length, rel=EXACT)
-    assert column.bulk_modulus == 2e9
-    assert column.line == Line(volume=5e-3, nominal_flow=200e-3 / 60.0, nominal_drop=5e5)

@@ -75,15 +75,6 @@ def test_relations_of_rows(
     assert RELATIONS[relation](row, at, of) is verdict
 
 
-@given(value=st.floats(-1e9, 1e9), error=st.floats(1e-9, 1e9), digits=st.integers(1, 9))
-def test_no_digit_is_shown_that_the_error_does_not_leave(value: float, error: float, digits: int) -> None:
-    text = Measured(value, error).format(digits)
-    place = math.floor(math.log10(error))  # of the error's first digit
-    assert len(text.partition(".")[2]) <= max(0, -place)
-    last = max(float(place), math.floor(math.log10(max(abs(value), error))) + 1.0 - digits)
-    assert abs(float(text) - value) <= 0.5 * 10.0**last * (1.0 + 1e-9) + 1e-15 * abs(value)
-
-
 # --- the list ---
 
 
