@@ -13,39 +13,32 @@ from typing import Annotated
 
 from cyclopts import CycloptsError, Group, Parameter
 
-from support_exudyn.commands.command_line import (
-    Imports,
-    carry_out,
-    import_modules,
-    mendable,
-    new_app,
-    warn,
-)
+from support_exudyn.commands import command_line as cli
 from support_exudyn.scene.contract import error_text
 from support_exudyn.simulation.at_start import INSTALLED, be_interruptible
 from user_forces.values.names import InputError
 
 COMMANDS = {  # by group: of every command its module and a line of what it does
     "Before a run": {
-        "init": ("inputs", "write a commented set of files to start from: machine, scenarios, sweep"),
-        "check": ("machines", "draw a machine; report mobility, dead centres, static forces, and doubts"),
+        "init": ("before_runs", "write a commented set of files to start from: machine, scenarios, sweep"),
+        "check": ("before_runs", "draw a machine; report mobility, dead centres, static forces, and doubts"),
         "stand": (
-            "machines",
+            "before_runs",
             "what a support must stand: support force, yield, buckling, tipping, on a page",
         ),
-        "channels": ("inputs", "all channels of a scenario or a machine: names, units, meanings"),
-        "schema": ("inputs", "all keys of scenario or machine files, as a table or a JSON Schema for editors"),
+        "channels": ("before_runs", "all channels of a scenario or a machine: names, units, meanings"),
+        "schema": (
+            "before_runs",
+            "all keys of scenario or machine files, as a table or a JSON Schema for editors",
+        ),
     },
     "Run": {
-        "run": ("run", "simulate a scenario's file and save the run"),
+        "run": ("runs", "simulate a scenario's file and save the run"),
         "sweep": ("sweeps", "run a scenario with fields of it varied, into a store that can be continued"),
     },
     "Look at runs": {
-        "show": ("show", "tables of what a run or a sweep was and what came out of it"),
-        "plot": (
-            "plot",
-            "figures of runs: channels, journal orbit, Poincare section, force spectrum",
-        ),
+        "show": ("runs", "tables of what a run or a sweep was and what came out of it"),
+        "plot": ("runs", "figures of runs: channels, journal orbit, Poincare section, force spectrum"),
         "report": ("outputs", "a page on runs: what was run, numbers with errors, live figures, a picture"),
         "render": ("outputs", "ray-traced frames and a movie of a run, without a display"),
         "view": ("outputs", "open Exudyn's solution viewer on a run"),
@@ -55,17 +48,14 @@ COMMANDS = {  # by group: of every command its module and a line of what it does
         "table": ("sweeps", "table of a sweep's runs for a text, as Markdown, CSV or LaTeX"),
     },
     "Compare": {
-        "compare": (
-            "compare",
-            "by how much runs, measurements and results of other programs differ",
-        ),
-        "baseline": ("baseline", "keep what scenarios come out at, and report what has changed since"),
+        "compare": ("compare", "by how much runs, measurements and results of other programs differ"),
+        "baseline": ("compare", "keep what scenarios come out at, and report what has changed since"),
     },
     "Write for other programs": {
         "export": ("outputs", "moving meshes for ParaView (XDMF, VTU) and tables of channels (CSV, HDF5)"),
         "measure": ("outputs", "what instruments on the machine read of a run, as a table (CSV)"),
-        "scenario": ("inputs", "the scenario of a run as a TOML file, which `run` takes"),
-        "docs": ("inputs", "build the documentation as a site; needs the extra [docs]"),
+        "scenario": ("before_runs", "the scenario of a run as a TOML file, which `run` takes"),
+        "docs": ("before_runs", "build the documentation as a site; needs the extra [docs]"),
     },
 }
 EPILOGUE = """\
@@ -88,7 +78,7 @@ def _versions() -> str:
     return "\n".join(map(" ".join, versions().items()))
 
 
-app = new_app(
+app = cli.new_app(
     INSTALLED,
     "Dynamics of linkages with clearance in their joints.",
     help_epilogue=EPILOGUE,
@@ -105,7 +95,7 @@ app.register_install_completion_command(name="--install-completion", group="Comp
 
 @app.meta.default
 def _launch(
-    *words: Annotated[str, Parameter(show=False, allow_leading_hyphen=True)], imports: Imports = ()
+    *words: Annotated[str, Parameter(show=False, allow_leading_hyphen=True)], imports: cli.Imports = ()
 ) -> int | None:
     """Carry out a command; its libraries are imported before it may be interrupted with an exception.
 
@@ -119,13 +109,13 @@ def _launch(
         raise CycloptsError(msg=f'Unknown command "{words[0][:80]}". {guess}Allowed: {", ".join(known)}')
     command, bound, _ = app.parse_args(words)
     be_interruptible()
-    import_modules(imports)
+    cli.import_modules(imports)
     try:
         with warnings.catch_warnings():
-            warnings.showwarning = lambda message, *_: warn(f"warning: {message}")
+            warnings.showwarning = lambda message, *_: cli.warn(f"warning: {message}")
             code: int | None = command(*bound.args, **bound.kwargs)
     except Exception as error:
-        if not imports or isinstance(error, (*mendable(), MemoryError)):
+        if not imports or isinstance(error, (*cli.mendable(), MemoryError)):
             raise
         raise InputError(f"{', '.join(f'--import {name}' for name in imports)}: {error_text(error)}") from error
     return code
@@ -133,4 +123,4 @@ def _launch(
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Do what the command line asks for. Returns the exit code."""
-    return carry_out(app.meta, argv)
+    return cli.carry_out(app.meta, argv)

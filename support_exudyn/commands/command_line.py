@@ -61,15 +61,15 @@ def output(*endings: str, folder: bool = True) -> Parameter:
 
     def check(type_: object, out: Path | None) -> None:
         del type_
-        if out is None or (folder and out.is_dir()) or not has_ending(out) or out.suffix.lower() in endings:
-            return
-        where = " or a folder, without an ending" if folder else ""
-        raise ValueError(f"allowed: a file that ends in {', '.join(endings)}{where}")
+        is_other = out is not None and _has_ending(out) and out.suffix.lower() not in endings
+        if is_other and not (folder and out is not None and out.is_dir()):
+            where = " or a folder, without an ending" if folder else ""
+            raise ValueError(f"allowed: a file that ends in {', '.join(endings)}{where}")
 
     return Parameter(validator=check)
 
 
-def has_ending(path: Path) -> bool:
+def _has_ending(path: Path) -> bool:
     """Whether a name has an ending, which begins with a letter: "x.csv" has, "clearance_1.5mm" has none."""
     return path.suffix[1:2].isalpha()
 
@@ -80,7 +80,7 @@ FIGURES = output(*PICTURES)
 
 def is_file(out: Path | None) -> bool:
     """Whether an output with several possible endings is a file; otherwise it is a folder."""
-    return out is not None and not out.is_dir() and has_ending(out)
+    return out is not None and not out.is_dir() and _has_ending(out)
 
 
 def new_app(name: str, about: str, **settings: Any) -> App:
@@ -215,12 +215,8 @@ def answered(work: Callable[[], int | None], refused: int = 1) -> int:
     except MemoryError as error:
         warn(f"error: {error_text(error)}; allowed: fewer records or channels, a smaller file")
     except mendable() as error:
-        warn(f"error: {_sentence(error)}")
+        sentence = str(error)
+        if isinstance(error, OSError) and error.filename is not None and error.strerror:
+            sentence = f"{os.fsdecode(error.filename)}: {error.strerror}"
+        warn(f"error: {sentence}")
     return refused
-
-
-def _sentence(error: Exception) -> str:
-    """What went wrong; with files of the system, which file and why."""
-    if isinstance(error, OSError) and error.filename is not None and error.strerror:
-        return f"{os.fsdecode(error.filename)}: {error.strerror}"
-    return str(error)

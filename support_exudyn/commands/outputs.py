@@ -8,19 +8,7 @@ from typing import Annotated, Any, Literal
 from cyclopts import Parameter
 from cyclopts.validators import Number
 
-from support_exudyn.commands.command_line import (
-    After,
-    Json,
-    Until,
-    answer,
-    at_most,
-    is_file,
-    output,
-    put,
-    say,
-    shown_progress,
-    warn,
-)
+from support_exudyn.commands import command_line as cli
 from support_exudyn.commands.runs import by_name, files_and_channels
 from support_exudyn.files.whole_file import whole_file
 from support_exudyn.scene.contract import Progress
@@ -29,12 +17,16 @@ from user_forces.values.value import InputError, short
 
 USUAL = ("xdmf", "vtu", "csv", "hdf5")
 FORMATS = (*USUAL, "solution")
-Every = Annotated[int | None, at_most(10**9)]  # records
+Every = Annotated[int | None, cli.at_most(10**9)]  # records
 Positive = Annotated[float, Parameter(validator=Number(gte=1e-9, lte=1e9))]
 
 
 def report(
-    run: str, /, *others: str, out: Annotated[Path | None, output(".html")] = None, json: Json = False
+    run: str,
+    /,
+    *others: str,
+    out: Annotated[Path | None, cli.output(".html")] = None,
+    json: cli.Json = False,
 ) -> None:
     """Write the page, and print its name.
 
@@ -51,16 +43,16 @@ def report(
     path = path if path.suffix.lower() == ".html" else path / "report.html"
     with whole_file(path) as temporary:
         temporary.write_text(page, encoding="utf-8")
-    put(json, {"report": path}, path)
+    cli.put(json, {"report": path}, path)
 
 
 def _size(type_: object, tokens: Any) -> tuple[int, int]:
     """Width and height from the command line."""
     del type_
-    found = re.fullmatch(r"(\d{1,5})[xX](\d{1,5})", tokens[0].value)
-    if found is None:
+    parts = re.fullmatch(r"(\d{1,5})[xX](\d{1,5})", tokens[0].value)
+    if parts is None:
         raise ValueError("allowed: width and height in pixels, such as 1280x720")
-    return int(found[1]), int(found[2])
+    return int(parts[1]), int(parts[2])
 
 
 Size = Annotated[tuple[int, int] | None, Parameter(converter=_size, n_tokens=1)]
@@ -70,16 +62,16 @@ def render(
     run: Path,
     /,
     *,
-    out: Annotated[Path | None, output(".png")] = None,
+    out: Annotated[Path | None, cli.output(".png")] = None,
     frames_per_second: Annotated[float, Parameter(name=("--frames-per-second", "--fps"))] = 25.0,
-    after: After | None = None,
-    until: Until | None = None,
+    after: cli.After | None = None,
+    until: cli.Until | None = None,
     speed: float = 1.0,
     movie: Literal["gif", "mp4", "none"] = "gif",
     size: Size = None,
     pin: str | None = None,
     still: float | None = None,
-    json: Json = False,
+    json: cli.Json = False,
 ) -> None:
     """Draw frames and a movie, or a picture.
 
@@ -100,7 +92,7 @@ def render(
 
     if still is not None and (after is not None or until is not None):
         raise InputError("--still: is one picture; allowed: without --after and --until")
-    if still is None and is_file(out):
+    if still is None and cli.is_file(out):
         raise InputError(f"--out {out}: allowed without --still: a folder for the frames, without an ending")
     result = Result.load(run)
     if still is not None:
@@ -110,10 +102,10 @@ def render(
         picture = rendering.still(result, still, size=size or rendering.SIZE, pin=pin)
         with whole_file(path) as temporary:
             Image.fromarray(picture).save(temporary, format="PNG")
-        put(json, {"frames": [path], "movie": None}, path)
+        cli.put(json, {"frames": [path], "movie": None}, path)
         return
     folder = out or run.with_name(f"{run.stem}_frames")
-    with shown_progress(f"rendering {run.name}") as progress:
+    with cli.shown_progress(f"rendering {run.name}") as progress:
         written = rendering.render(
             result,
             folder,
@@ -129,7 +121,7 @@ def render(
     lines = [f"{_counted(len(written.frames), 'frame')} in {folder}"]
     if written.movie is not None:
         lines.append(f"{written.movie} ({written.movie.stat().st_size / 1e6:.3g} MB)")
-    put(json, {"frames": written.frames, "movie": written.movie}, *lines)
+    cli.put(json, {"frames": written.frames, "movie": written.movie}, *lines)
 
 
 def view(run: Path, /, *, solution: Path | None = None, every: Every = None) -> None:
@@ -151,8 +143,8 @@ def measure(
     instruments: Path | None = None,
     /,
     *,
-    out: Annotated[Path | None, output(".csv", folder=False)] = None,
-    json: Json = False,
+    out: Annotated[Path | None, cli.output(".csv", folder=False)] = None,
+    json: cli.Json = False,
 ) -> None:
     """Write the table of what instruments read, and print what is in it.
 
@@ -173,7 +165,7 @@ def measure(
     out = out or run.with_name(f"{run.stem}_measured.csv")
     stations.write_measured(measured, out)
     sizes = {name: reading.time.size for name, reading in measured.items()}
-    put(
+    cli.put(
         json,
         {"written": out, "samples": sizes, "left_out": _left_out(refused)},
         f"{out}: {_counted(len(measured), 'instrument')}, {max(sizes.values())} samples",
@@ -188,9 +180,9 @@ def export(
     out: Path | None = None,
     every: Every = None,
     frames_per_second: Positive | None = None,
-    after: After = 0.0,
-    until: Until | None = None,
-    json: Json = False,
+    after: cli.After = 0.0,
+    until: cli.Until | None = None,
+    json: cli.Json = False,
 ) -> None:
     """Write meshes and tables of a run, and print which.
 
@@ -210,19 +202,23 @@ def export(
     from support_exudyn.postprocessing.export.solution_file import save_solution
     from support_exudyn.postprocessing.export.tables import TABLES, to_csv, to_hdf5
 
-    if is_file(out):
+    if cli.is_file(out):
         raise InputError(f"--out {out}: is a folder for all formats; allowed: a name without an ending")
     result, name, folder = Result.load(run), run.stem, out or run.parent / f"{run.stem}_export"
     kinds = [kind.strip() for kind in to.split(",")] if to else []
     for kind in kinds:
         if kind not in FORMATS:
             raise InputError(f"--to {short(kind)}: no such format; allowed: {', '.join(FORMATS)}")
-
-    def sampling(usual: Sampling) -> Sampling:
-        rate = usual.frames_per_second if every is None and frames_per_second is None else frames_per_second
-        return Sampling(every=every, frames_per_second=rate, after=after, until=until)
-
-    meshes, tables = sampling(MESHES), sampling(TABLES)
+    usual = every is None and frames_per_second is None
+    meshes, tables = (
+        Sampling(
+            every=every,
+            frames_per_second=own.frames_per_second if usual else frames_per_second,
+            after=after,
+            until=until,
+        )
+        for own in (MESHES, TABLES)
+    )
     work: dict[str, Callable[[Progress], tuple[Path, ...]]] = {
         "xdmf": lambda progress: to_xdmf(result, folder / f"{name}.xdmf", meshes, progress),
         "vtu": lambda progress: to_vtu(result, folder / f"{name}_vtu", meshes, progress),
@@ -234,7 +230,7 @@ def export(
     written: dict[str, tuple[Path, ...]] = {}
     for kind in dict.fromkeys(kinds or USUAL):
         try:
-            with shown_progress(kind) as progress:
+            with cli.shown_progress(kind) as progress:
                 files = written[kind] = work[kind](progress)
         except InputError as error:
             if kinds:
@@ -243,18 +239,18 @@ def export(
             continue
         if not json:
             size = sum(file.stat().st_size for file in files)
-            say(f"{kind}: {files[0]} ({_counted(len(files), 'file')}, {size / 1e6:.3g} MB)")
+            cli.say(f"{kind}: {files[0]} ({_counted(len(files), 'file')}, {size / 1e6:.3g} MB)")
     if not written:
         raise refused[USUAL[0]]
     left_out = _left_out(refused)
     if json:
-        answer({"written": written, "left_out": left_out})
+        cli.answer({"written": written, "left_out": left_out})
 
 
 def _left_out(refused: dict[str, InputError]) -> dict[str, str]:
     """What is left out, and why; it is also printed as a warning."""
     for name, reason in refused.items():
-        warn(f"{name}: left out: {reason}")
+        cli.warn(f"{name}: left out: {reason}")
     return {name: str(reason) for name, reason in refused.items()}
 
 

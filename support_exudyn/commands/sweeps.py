@@ -7,26 +7,13 @@ from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
-from support_exudyn.commands.command_line import (
-    PICTURES,
-    Json,
-    answer,
-    at_most,
-    is_file,
-    output,
-    put,
-    say,
-    show_table,
-    shown_progress,
-    warn,
-    write_or_say,
-)
+from support_exudyn.commands import command_line as cli
 from support_exudyn.postprocessing import sweep_sliders, sweep_summary, sweep_table
 from support_exudyn.postprocessing.figures.selection import matching
 from support_exudyn.postprocessing.sweep_runs import SweepRuns
 from support_exudyn.sweeps import read_sweep, read_table
 from support_exudyn.sweeps import sweep as run_sweep
-from support_exudyn.sweeps.run import SweepOutcome, known
+from support_exudyn.sweeps.run import known
 from support_exudyn.sweeps.table import is_sampled
 from user_forces.values.value import InputError
 
@@ -34,7 +21,7 @@ FAILURES = 3  # exit code
 MOST = 8  # numbers that are shown unless all or some are asked for
 FORMATS = {"md": sweep_table.as_markdown, "csv": sweep_table.as_csv, "latex": sweep_table.as_latex}
 Store = Annotated[Path, Parameter(help="Folder of a sweep, or the table.parquet in it.")]
-Workers = Annotated[int | None, at_most(1024)]
+Workers = Annotated[int | None, cli.at_most(1024)]
 
 
 def sweep(
@@ -47,7 +34,7 @@ def sweep(
     retry_failed: bool = False,
     prune: bool = False,
     dry_run: bool = False,
-    json: Json = False,
+    json: cli.Json = False,
 ) -> int:
     """Run what is missing, and print how many runs there are of each kind, and where the table is.
 
@@ -72,7 +59,7 @@ def sweep(
     if dry_run:
         outcome = known(plan, store, retry_failed)
     else:
-        with shown_progress(file.stem) as progress:
+        with cli.shown_progress(file.stem) as progress:
             outcome = run_sweep(
                 plan,
                 store,
@@ -82,28 +69,24 @@ def sweep(
                 prune=prune,
                 progress=lambda so_far: progress(so_far.finished / so_far.runs),
             )
+    counts = {"done": outcome.done, "failed": outcome.failed, "killed": outcome.killed}
+    words = ", ".join(f"{number} {kind}" for kind, number in counts.items() if number) or "none done"
+    words += f" ({outcome.found} of them were in the store)" if outcome.found else ""
+    words += f", {outcome.pruned} others removed from the store" if outcome.pruned else ""
     for name in outcome.missing:
-        warn(f"{name}: no run has this number")
+        cli.warn(f"{name}: no run has this number")
     to_do = outcome.runs - outcome.finished
     left = f", {to_do} to do" if dry_run else ""
     place = [] if dry_run else [outcome.table, f"next: support-exudyn show {outcome.table.parent}"]
-    put(json, asdict(outcome) | {"to_do": to_do}, f"{outcome.runs} runs{left}: {_counts(outcome)}", *place)
+    cli.put(json, asdict(outcome) | {"to_do": to_do}, f"{outcome.runs} runs{left}: {words}", *place)
     if dry_run:
         return 0
     if outcome.unmet:
-        warn(f"{outcome.unmet} runs are less accurate than asked for; the table's reason names them")
+        cli.warn(f"{outcome.unmet} runs are less accurate than asked for; the table's reason names them")
     if outcome.done < outcome.runs:
-        warn("some runs have failed; their reasons are in the table")
+        cli.warn("some runs have failed; their reasons are in the table")
         return FAILURES
     return 0
-
-
-def _counts(outcome: SweepOutcome) -> str:
-    counts = {"done": outcome.done, "failed": outcome.failed, "killed": outcome.killed}
-    words = ", ".join(f"{number} {kind}" for kind, number in counts.items() if number) or "none done"
-    pruned = f", {outcome.pruned} others removed from the store" if outcome.pruned else ""
-    stored = f" ({outcome.found} of them were in the store)" if outcome.found else ""
-    return f"{words}{stored}{pruned}"
 
 
 def chart(
@@ -114,7 +97,7 @@ def chart(
     histogram: bool = False,
     tornado: bool = False,
     sliders: bool = False,
-    out: Annotated[Path | None, output(*PICTURES, ".html")] = None,
+    out: Annotated[Path | None, cli.output(*cli.PICTURES, ".html")] = None,
 ) -> None:
     """Draw, write, and print the names of the files.
 
@@ -139,17 +122,19 @@ def chart(
         raise InputError("--histogram, --tornado: allowed: one of them, and a number alone")
     if len(names) > 2 and not sliders:
         raise InputError(f"{' '.join(names)}: allowed: what was varied and a number, or a number alone")
-    is_page = out is not None and is_file(out) and out.suffix.lower() == ".html"
-    if is_file(out) and is_page != sliders:
-        kinds = ".html with --sliders, else " + ", ".join(PICTURES)
+    is_page = out is not None and cli.is_file(out) and out.suffix.lower() == ".html"
+    if cli.is_file(out) and is_page != sliders:
+        kinds = ".html with --sliders, else " + ", ".join(cli.PICTURES)
         raise InputError(f"--out {out}: allowed: a file that ends in {kinds}; or a folder, without an ending")
     runs, folder = SweepRuns(read_table(store)), store if store.is_dir() else store.parent
     if sliders:
         page = out if out is not None and is_page else (out or folder / "figures") / "sliders.html"
         chosen = _chosen(runs, names) or list(runs.numbers.values())
-        say(sweep_sliders.write_sliders(runs, chosen, page, folder.resolve().name))
+        cli.say(sweep_sliders.write_sliders(runs, chosen, page, folder.resolve().name))
         return
-    *before, y = names or [_only_number(list(runs.numbers))]
+    if not names and len(runs.numbers) != 1:
+        raise InputError(f"Y: which number? allowed: {', '.join(runs.numbers) or 'none was recorded'}")
+    *before, y = names or runs.numbers
     with style.look():
         if tornado:
             drawing, name = figures.tornado(runs.table, y), joined(y, "tornado")
@@ -164,14 +149,9 @@ def chart(
             drawing = figures.sweep_chart(runs.table, x, y, by)
             name = joined(y, "over", x, f"by_{by}" if by else "")
         style.named(drawing, folder.resolve().name)
-        say("\n".join(map(str, save_figures({name: drawing}, out, folder / "figures", is_file(out))[name])))
-
-
-def _only_number(known: Sequence[str]) -> str:
-    """The number that is drawn where none is named."""
-    if len(known) != 1:
-        raise InputError(f"Y: which number? allowed: {', '.join(known) or 'none was recorded'}")
-    return known[0]
+        cli.say(
+            "\n".join(map(str, save_figures({name: drawing}, out, folder / "figures", cli.is_file(out))[name]))
+        )
 
 
 def table(
@@ -190,7 +170,7 @@ def table(
     """
     runs = SweepRuns(read_table(store))
     chosen = _chosen(runs, numbers) or list(runs.numbers.values())
-    write_or_say(FORMATS[format](runs, chosen), out)
+    cli.write_or_say(FORMATS[format](runs, chosen), out)
 
 
 def _chosen(runs: SweepRuns, words: Sequence[str]) -> list[str]:
@@ -205,14 +185,14 @@ def show_sweep(store: Path, words: Sequence[str], every: bool, json: bool) -> No
     filled = [column for column in names.values() if runs.number(column).rows.size]
     chosen = _chosen(runs, words) or filled[: len(names) if every or json else MOST]
     if json:
-        answer(sweep_summary.data_of(runs, chosen))
+        cli.answer(sweep_summary.data_of(runs, chosen))
         return
-    say(f"{sweep_summary.counts(runs)}\n")
+    cli.say(f"{sweep_summary.counts(runs)}\n")
     more = len(names) - len(chosen)
     rest = f" ({more} more: --all)" if more > 0 and not words else ""
     for table in sweep_summary.sweep_tables(runs, chosen, rest):
-        show_table(*table)
+        cli.show_table(*table)
     if chosen:
         folder = store if store.is_dir() else store.parent
         number = next(name for name, column in names.items() if column == chosen[0])
-        say(f"next: support-exudyn chart {folder} {number}, or table {folder} --format md")
+        cli.say(f"next: support-exudyn chart {folder} {number}, or table {folder} --format md")

@@ -6,7 +6,7 @@ nothing of the package is imported before a fixture is used.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,10 +14,8 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 if TYPE_CHECKING:
-    from support_exudyn.postprocessing.comparing.in_tests import Measured, Reference, SessionBaselines
     from support_exudyn.scenario.scenario import Scenario
     from support_exudyn.scenario.scenario_data import Accuracy
-    from support_exudyn.simulation.estimate import Estimate
     from support_exudyn.simulation.result import Result
 
 SimulateCached = Callable[..., "Result"]  # types of the fixtures
@@ -61,6 +59,12 @@ def simulate_cached(pytestconfig: pytest.Config, tmp_path_factory: pytest.TempPa
     `simulate_cached(scenario, accuracy=None, errors=False)` takes a Scenario or the path of its file; accuracy
     and errors are those of `simulate`. Results are read anew at each call: no test changes those of another.
     """
+    folder = tmp_path_factory.getbasetemp()
+    folder = (folder.parent if hasattr(pytestconfig, "workerinput") else folder) / CACHE
+    cache: pytest.Cache | None = getattr(pytestconfig, "cache", None)
+    if cache is not None:
+        with suppress(OSError):  # a folder that nobody may write to
+            folder = cache.mkdir(CACHE)
 
     def run(
         scenario: Scenario | str | Path, *, accuracy: Accuracy | None = None, errors: bool = False
@@ -77,22 +81,12 @@ def simulate_cached(pytestconfig: pytest.Config, tmp_path_factory: pytest.TempPa
             scenario, errors = file.scenario, errors or file.errors
         elif not isinstance(scenario, Scenario):
             raise InputError(f"{short(scenario)}: cannot be run; allowed: a Scenario, or the path of its file")
-        scenario = scenario if accuracy is None else replace(scenario, accuracy=accuracy)
-        return cached_run(_cache_folder(pytestconfig, tmp_path_factory), scenario, errors)
+        folder.mkdir(exist_ok=True)
+        return cached_run(
+            folder, scenario if accuracy is None else replace(scenario, accuracy=accuracy), errors
+        )
 
     return run
-
-
-def _cache_folder(config: pytest.Config, temporary: pytest.TempPathFactory) -> Path:
-    """Where runs are kept: in pytest's cache; if there is none, for this session, for all of its workers."""
-    cache: pytest.Cache | None = getattr(config, "cache", None)
-    if cache is not None:
-        with suppress(OSError):  # a folder that nobody may write to
-            return cache.mkdir(CACHE)
-    folder = temporary.getbasetemp()
-    folder = (folder.parent if hasattr(config, "workerinput") else folder) / CACHE
-    folder.mkdir(exist_ok=True)
-    return folder
 
 
 @pytest.fixture(scope="session")
@@ -103,34 +97,24 @@ def assert_close() -> AssertClose:
     errors of both are allowed. The failure states the worst number with its time.
     """
 
-    def check(
-        result: Measured,
-        reference: Reference,
-        tolerance: float | str | None = None,
-        *,
-        channels: Sequence[str] = (),
-        after: float = 0.0,
-        until: float = float("inf"),
-    ) -> None:
+    def check(result: Any, reference: Any, tolerance: float | str | None = None, **part: Any) -> None:
         __tracebackhide__ = True
         from support_exudyn.postprocessing.comparing.in_tests import closeness
 
-        found = closeness(result, reference, tolerance, channels=channels, after=after, until=until)
-        if lines := [line for channel in found for line in channel.faults]:
+        close = closeness(result, reference, tolerance, **part)
+        if lines := [line for channel in close for line in channel.faults]:
             raise AssertionError("\n".join(lines))
 
     return check
 
 
 @pytest.fixture(scope="session")
-def _baselines(pytestconfig: pytest.Config) -> SessionBaselines:
-    from support_exudyn.postprocessing.comparing.in_tests import SessionBaselines
-
-    return SessionBaselines(pytestconfig.getoption(OPTION))
+def _used_baselines() -> set[Path]:
+    return set()
 
 
 @pytest.fixture
-def baseline(request: pytest.FixtureRequest, _baselines: SessionBaselines) -> Baseline:
+def baseline(request: pytest.FixtureRequest, _used_baselines: set[Path]) -> Baseline:
     """Fail if a result or number has changed by more than both errors from its baseline.
 
     `baseline(item, name="")` takes a Result with errors, an Estimate, or Estimates by names. The baseline is
@@ -138,10 +122,17 @@ def baseline(request: pytest.FixtureRequest, _baselines: SessionBaselines) -> Ba
     `pytest --baseline-update MODULE.TEST`, and by nothing else.
     """
 
-    def check(item: Result | Estimate | Mapping[str, Estimate], name: str = "") -> None:
+    def check(item: Any, name: str = "") -> None:
         __tracebackhide__ = True
-        whole = f"{request.path.stem}.{name or request.node.name}"
-        report, written = _baselines.compare(item, request.path, whole)
+        from support_exudyn.postprocessing.comparing.in_tests import against_baseline, baseline_path
+        from user_forces.values.value import InputError
+
+        path = baseline_path(request.path, f"{request.path.stem}.{name or request.node.name}")
+        if path in _used_baselines:
+            allowed = "a name of its own, baseline(it, 'NAME')"
+            raise InputError(f"{path.stem}: is compared already; allowed: {allowed}")
+        _used_baselines.add(path)
+        report, written = against_baseline(item, path, request.config.getoption(OPTION))
         if written:
             request.node.user_properties.append((WRITTEN, report))
         elif report:

@@ -58,39 +58,31 @@ def kept(scenes: Path) -> dict[str, bytes]:
 
 
 def test_made_checked_changed_and_updated(scenes: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    code, said, _ = called(capsys, "make scenes")
+    def check(words: str, code: int, *parts: str) -> None:
+        printed = called(capsys, words)
+        assert (printed[0], [part for part in parts if part not in "".join(printed[1:])]) == (code, [])
+
+    check("make scenes", 0)
     first = kept(scenes)
-    assert (code, set(first)) == (0, {"slow.json", "fast.json"})
-    code, said, _ = called(capsys, "check scenes")
-    assert (code, said.splitlines()[-1]) == (0, "2 same")
-    code, said, _ = called(capsys, "make scenes")  # once more, nothing is written
-    assert (code, kept(scenes)) == (0, first)
-    assert "left as they are: fast, slow" in said
-
+    assert set(first) == {"slow.json", "fast.json"}
+    check("check scenes", 0, "2 same")
+    check("make scenes", 0, "left as they are: fast, slow")
     (scenes / "slow.toml").write_text(SLOW.replace("1e10", "1.001e10"), "utf-8")
-    code, said, _ = called(capsys, "check scenes")
-    assert (code, kept(scenes)) == (1, first)
-    for part in ("changed by more than both errors, new, or gone", "stiffness", "1 same, 1 changed"):
-        assert part in said
-    code, said, err = called(capsys, "update scenes")  # nothing where nobody can be asked
-    assert (code, kept(scenes)) == (1, first)
-    assert "1 not written; to write one, name it: update scenes NAME" in err
-    code, said, _ = called(capsys, "update scenes slow")
-    after = kept(scenes)
-    assert (code, after["fast.json"] == first["fast.json"], " -> " in said) == (0, True, True)
-    assert called(capsys, "check scenes")[0] == 0
-
+    check("check scenes", 1, "changed by more than both errors, new, or gone", "stiffness", "1 same, 1 changed")
+    check("update scenes", 1, "1 not written; to write one, name it: update scenes NAME")
+    assert kept(scenes) == first
+    check("update scenes slow", 0, " -> ")
+    assert kept(scenes)["fast.json"] == first["fast.json"]
+    check("check scenes", 0)
     (scenes / "slow.toml").rename(scenes / "third.toml")
-    code, said, _ = called(capsys, "check scenes --json")
-    states = {name: one["state"] for name, one in json.loads(said).items()}
+    code, printed, _ = called(capsys, "check scenes --json")
+    states = {name: each["state"] for name, each in json.loads(printed).items()}
     assert (code, states) == (1, {"fast": "same", "slow": "gone", "third": "new"})
-    code, said, _ = called(capsys, "update scenes slow third")
-    assert (code, set(kept(scenes)), "slow.json: removed" in said) == (0, {"fast.json", "third.json"}, True)
-
+    check("update scenes slow third", 0, "slow.json: removed")
+    assert set(kept(scenes)) == {"fast.json", "third.json"}
     path = scenes / "baseline" / "fast.json"
     path.write_bytes(path.read_bytes()[:-100])
-    code, _, err = called(capsys, "check scenes")
-    assert (code, "fast.json: is no baseline, or damaged" in err) == (2, True)
+    check("check scenes", 2, "fast.json: is no baseline, or damaged")
 
 
 def test_a_run_that_cannot_be_finished_or_is_interrupted(

@@ -19,12 +19,6 @@ from tests.machine_files import written
 ALIKE = ("zf18000", "two_leg_shield")
 
 
-@pytest.fixture
-def _words_alone(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Figures are not saved, which takes longer than all that is told."""
-    monkeypatch.setattr("support_exudyn.postprocessing.figures.style.save", lambda *_: [])
-
-
 @pytest.mark.parametrize(
     "name", [pytest.param(name, marks=[pytest.mark.slow] * (name in ALIKE)) for name in SHIPPED]
 )
@@ -39,7 +33,6 @@ def test_shipped_machines_are_drawn(name: str, tmp_path: Path, capsys: pytest.Ca
     assert 0.01 < (pixels < 200).mean() < 0.3  # lines on white paper
     edge = np.concatenate([pixels[0], pixels[-1], pixels[:, 0], pixels[:, -1]])
     assert edge.min() > 200  # nothing is cut off
-    assert (tmp_path / f"{name}_check.pdf").read_bytes().startswith(b"%PDF")
 
 
 def test_a_file_of_ones_own_gets_its_figure_beside_it(
@@ -48,9 +41,7 @@ def test_a_file_of_ones_own_gets_its_figure_beside_it(
     path = written(tmp_path)
     assert main(["check", str(path), "--json", "--stroke-mm", "300"]) == 0
     told = json.loads(capsys.readouterr().out)
-    assert told["stroke_m"] == 0.3
-    assert told["warnings"] == []
-    assert len(told["stations"]) == 11
+    assert (told["stroke_m"], told["warnings"], len(told["stations"])) == (0.3, [], 11)
     assert told["figures"] == [str(tmp_path / "ours_check.png"), str(tmp_path / "ours_check.pdf")]
     assert all(Path(figure).exists() for figure in told["figures"])
 
@@ -97,7 +88,6 @@ stiffness = "paper"
 """
 
 
-@pytest.mark.usefixtures("_words_alone")
 def test_a_scenario_is_told_how_hard_its_pins_are_pressed(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -105,14 +95,7 @@ def test_a_scenario_is_told_how_hard_its_pins_are_pressed(
     path.write_text(SCENARIO, "utf-8")
     assert main(["check", str(path), "--json"]) == 0
     (pin,) = json.loads(capsys.readouterr().out)["pins_under_static_load"]
-    assert pin["pin"] == "rear_base"
-    assert pin["length_m"] == 0.7
+    assert (pin["pin"], pin["length_m"], pin["conformal"]) == ("rear_base", 0.7, False)
     # as a line, whatever the law; the depth is that of Eq. 5
     assert pin["peak_pressure_Pa"] == pytest.approx(30.8e6 * math.sqrt(pin["force_N"] / 51.4e3), rel=0.01)
     assert pin["depth_m"] == pytest.approx(153e-6 * (pin["force_N"] / 51.4e3) ** (2.0 / 3.0), rel=0.01)
-    assert pin["conformal"] is False
-    path.write_text(SCENARIO.replace("rear_base]", "rear_base]\nlength_mm = 0.7"), "utf-8")
-    assert main(["check", str(path)]) == 0
-    told = " ".join(capsys.readouterr().out.split())
-    assert "- rear_base: " in told
-    assert "bears before it yields: an elastic contact is too stiff there" in told

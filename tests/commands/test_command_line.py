@@ -54,19 +54,13 @@ def test_the_installed_command_is_the_module() -> None:
         ("render run.h5 --size big", 2, "allowed: width and height in pixels, such as 1280x720"),
         ("sweep a.toml --workers 0", 2, "--workers. Must be >= 1"),
         ("init four_column", 2, "did you mean four_column_support? allowed: four_column_support, two_leg"),
-        ("view run.h5 tip.x", 2, "tip.x"),
         ("show no.h5", 1, "no.h5: no such file"),
         ("sweep a.toml --workers 2 --scheduler tcp://x:1", 1, "allowed: without --scheduler"),
         ("chart no tip.x --tornado --histogram", 1, "allowed: one of them"),
         ("plot no.h5 --out x.xyz", 2, "--out. allowed: a file that ends in .png, .pdf, .svg or a folder"),
         ("chart no tip.x --out x.jpg", 2, "allowed: a file that ends in .png, .pdf, .svg, .html or a folder"),
         ("chart no tip.x --out x.html", 1, "allowed: a file that ends in .html with --sliders"),
-        ("chart no --sliders --out x.png", 1, "allowed: a file that ends in .html with --sliders"),
         ("chart no --sliders --tornado", 1, "allowed: without --by, --histogram, --tornado"),
-        ("check reference --out x.tif", 2, "allowed: a file that ends in .png, .pdf, .svg or a folder"),
-        ("stand reference --figure x.eps", 2, "allowed: a file that ends in .png, .pdf, .svg or a folder"),
-        ("report no.h5 --out x.pdf", 2, "allowed: a file that ends in .html or a folder"),
-        ("render no.h5 --out x.mp4", 2, "allowed: a file that ends in .png or a folder"),
         ("render no.h5 --out x.png", 1, "--out x.png: allowed without --still: a folder"),
         ("measure no.h5 --out x.xlsx", 2, "allowed: a file that ends in .csv"),
         ("run no.toml --out x.csv", 2, "allowed: a file that ends in .h5, .hdf5"),
@@ -74,7 +68,6 @@ def test_the_installed_command_is_the_module() -> None:
         ("plot no.csv", 1, "is no run; allowed: with a run before it"),
         ("compare no.h5", 2, "allowed: two files or more, the first is the reference"),
         ("--import gone.py show no.h5", 1, "--import 'gone.py': there is no such file"),
-        ("show no.h5 --import gone.py", 1, "--import 'gone.py': there is no such file"),
     ],
 )
 def test_what_is_wrong_is_a_line_on_standard_error_and_an_exit_code(
@@ -149,4 +142,4 @@ def test_a_run_is_shown_without_engine_compiler_and_figures(run: Path, more: lis
     packages, commands = imported_by("show", str(run), *more)
     assert packages & HEAVY <= {"scipy"}  # which finds the start posture of a four-bar
     assert packages >= BASIC
-    assert commands & MODULES == {"show"}
+    assert commands & MODULES == {"runs"}

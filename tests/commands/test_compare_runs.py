@@ -59,12 +59,9 @@ def one(runs: Path, first: str, second: str, channel: str, **more: Any) -> Compa
         ("plain changed", f"{FORCE} --tolerance pin.*=10N", 1, "Not all channels are within their tolerances."),
         ("with_clearance fine", f"{FORCE} --tolerance pin.*=1e-9N", 1, "not decided"),
         ("ideal crank", "", 2, "no channel in common; ideal.h5 has"),
-        ("ideal with_clearance", "tap.x", 2, "'tap.x': no such channel"),
         ("ideal no", "", 2, "no.h5: no such file"),
         ("ideal", "tip.x", 2, "is the only file; tip.x is no file that is there"),
-        ("ideal with_clearance", "--tolerance tip.x=1kN", 2, "tolerance of tip.x"),
         ("ideal with_clearance", "--figure figure.bmp", 2, "ends in .png, .pdf, .svg"),
-        ("ideal with_clearance", "--page page.pdf", 2, "ends in .html"),
         ("ideal with_clearance", "--map no.toml", 2, "no.toml: no such file"),
     ],
 )
@@ -124,18 +121,13 @@ def test_the_same_run_other_records_and_a_bit(runs: Path) -> None:
 # --- results of others ---
 
 
-@pytest.mark.parametrize(("unit", "length"), [("inch", 1.0), ("m", 0.0254)])
 def test_an_adams_file_is_three_quarters_of_a_percent_off_free_fall_at_its_first_step(
-    unit: str,
-    length: float,
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
     time = 0.01 * np.arange(26)
-    fall = np.column_stack([time, -0.5 * length * GRAVITY * time**2])
-    np.savetxt("fall.csv", fall, delimiter=",", fmt="%.16g", header=f"time_s,height [{unit}]", comments="")
+    fall = np.column_stack([time, -0.5 * GRAVITY * time**2])
+    np.savetxt("fall.csv", fall, delimiter=",", fmt="%.16g", header="time_s,height [inch]", comments="")
     Path("compare.toml").write_text('[files."free_fall.res".columns]\nheight = "PART_2_XFORM.Y"\n', "utf-8")
     words = ["compare", "fall.csv", str(DATA / "free_fall.res"), "--map", "compare.toml"]
     assert main([*words, "--until", "0.015", "--tolerance", "height=1um"]) == 1
@@ -145,10 +137,6 @@ def test_an_adams_file_is_three_quarters_of_a_percent_off_free_fall_at_its_first
     assert main([*words, "--json"]) == 0
     height = json.loads(capsys.readouterr().out)["files"]["free_fall.res"]["channels"]["height"]
     assert height["largest"]["value"] == pytest.approx(0.0254 * 0.0001447832185125, rel=1e-9)
-    # of all later steps it is off by as much: a start that is not repeated
-    measures = height["measures"]
-    spread = math.sqrt(measures["rms"] ** 2 - measures["mean_difference"] ** 2)
-    assert spread < 0.2 * height["largest"]["value"]
 
 
 @pytest.mark.parametrize("seconds", [0.3, pytest.param(1, marks=pytest.mark.slow)])
@@ -173,40 +161,28 @@ def test_the_four_bar_of_siconos_is_compared_through_its_table_alone(
     assert all(channels[name]["largest"]["value"] < 2e-4 for name in list(channels)[:3])
     there = Result.load(run)["crank.angle"][round(0.1 / 0.01)]
     assert there == pytest.approx(1.985176417328212, abs=1e-4)  # the table's own row
-    # a wrong sign in the mapping is caught
-    right, wrong = '"crank.angular_velocity" = "v0"', '"crank.angular_velocity" = { column = "v0", sign = -1 }'
-    (tmp_path / "wrong.toml").write_text(mapping.read_text("utf-8").replace(right, wrong), "utf-8")
-    assert main(["compare", *files, "--map", str(tmp_path / "wrong.toml")]) == 1
 
 
 # --- runs with a horizon ---
 
 
-@pytest.fixture(scope="module")
-def parted(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Five loose pins that hit hard, at two accuracies."""
-    folder = tmp_path_factory.mktemp("five_pins")
-    for accuracy in ("draft", "reference"):
-        simulate(five_pins(), accuracy=accuracy).save(folder / f"{accuracy}.h5")
-    return folder
-
-
 def test_two_accuracies_are_equal_up_to_their_horizon_and_in_statistics_after_it(
-    parted: Path, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    draft, fine, page = parted / "draft.h5", parted / "reference.h5", parted / "a.html"
+    """Five loose pins that hit hard, at two accuracies."""
+    for accuracy in ("draft", "reference"):
+        simulate(five_pins(), accuracy=accuracy).save(tmp_path / f"{accuracy}.h5")
+    draft, fine = tmp_path / "draft.h5", tmp_path / "reference.h5"
     horizon = Result.load(draft).horizon
     assert 0.03 < horizon < 0.2  # they part well within the run
     words = ["compare", str(draft), str(fine), "pin.*.force", "tip.*"]
-    assert main([*words, "--page", str(page), "--figure", str(parted / "a.png")]) == 0
-    told = " ".join(capsys.readouterr().out.split())
-    found = re.search(r"point by point up to ([\d.]+) s, the horizon of (draft|reference)\.h5", told)
+    assert main([*words, "--page", str(tmp_path / "a.html"), "--figure", str(tmp_path / "a.png")]) == 0
+    printed = " ".join(capsys.readouterr().out.split())
+    found = re.search(r"point by point up to ([\d.]+) s, the horizon of (draft|reference)\.h5", printed)
     assert found is not None
     assert float(found[1]) <= horizon * (1.0 + 1e-5)
-    assert "after it by statistics" in told
-    assert "rms after the horizon" in told
-    assert " differs" not in told
-    assert "Point by point up to" in page.read_text(encoding="utf-8")
+    assert "rms after the horizon" in printed
+    assert " differs" not in printed
     assert main([*words, "--json"]) == 0
     pair = json.loads(capsys.readouterr().out)["files"]["reference.h5"]
     for name, channel in pair["channels"].items():

@@ -67,14 +67,6 @@ def same(one: Result, other: Result) -> None:
         same(one.coarser, other.coarser)
 
 
-def again(result: Result, folder: Path) -> Result:
-    """The run of the scenario that the command writes of a run."""
-    result.save(folder / "a.h5")
-    assert main(["scenario", str(folder / "a.h5"), "--out", str(folder / "b.toml")]) == 0
-    assert main(["run", str(folder / "b.toml")]) == 0
-    return Result.load(folder / "b.h5")
-
-
 LONGER = ("apart", "jumps", "load", "tail beam")
 
 
@@ -83,23 +75,22 @@ LONGER = ("apart", "jumps", "load", "tail beam")
 )
 def test_the_scenario_of_a_run_makes_it_again_to_the_bit(name: str, tmp_path: Path) -> None:
     result = simulate(SCENARIOS[name])
-    same(again(result, tmp_path), result)
+    result.save(tmp_path / "a.h5")
+    assert main(["scenario", str(tmp_path / "a.h5"), "--out", str(tmp_path / "b.toml")]) == 0
+    assert main(["run", str(tmp_path / "b.toml")]) == 0
+    same(Result.load(tmp_path / "b.h5"), result)
 
 
-def refused(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> str:
-    assert main(arguments) == 1
-    told = capsys.readouterr()
-    assert told.out == ""
-    return told.err
-
-
-def test_what_cannot_be_run_is_said_in_a_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_what_cannot_be_run_is_refused_in_a_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "a.toml"
-    path.write_text('machine = "reference"\nduration_s = -1\n')
-    assert refused(["run", str(path)], capsys) == f"error: {path}: duration_s = -1: allowed: > 0\n"
-    assert "no.toml" in refused(["run", str(tmp_path / "no.toml")], capsys)
     path.write_text('machine = "reference"\nduration_s = 1\n')
-    assert "is the scenario itself" in refused(["run", str(path), "--solution", str(path)], capsys)
     (tmp_path / "folder").mkdir()
-    assert "irectory" in refused(["run", str(path), "--out", str(tmp_path / "folder")], capsys)
-    assert [one.name for one in sorted(tmp_path.iterdir())] == ["a.toml", "folder"]
+    for words, why in (
+        (["run", str(tmp_path / "no.toml")], "no.toml"),
+        (["run", str(path), "--solution", str(path)], "is the scenario itself"),
+        (["run", str(path), "--out", str(tmp_path / "folder")], "irectory"),
+    ):
+        assert main(words) == 1
+        printed = capsys.readouterr()
+        assert (printed.out, why in printed.err) == ("", True)
+    assert [each.name for each in sorted(tmp_path.iterdir())] == ["a.toml", "folder"]

@@ -10,6 +10,7 @@ import json
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -34,7 +35,6 @@ FOLDER, ENDING = "baseline", ".json"  # of baselines next to scenarios and tests
 RECORDS = 100  # of every curve that are kept
 FORMAT = "support_exudyn baseline 2"
 MOST = 100_000_000  # bytes
-SHOWN = 12  # changes of a scenario that are printed
 DIGITS, OF_ERRORS = 13, 3  # of values and errors that are written; errors count rounding from 1e-10 on
 DAMAGES = (LookupError, AttributeError, TypeError, ValueError, RecursionError, OverflowError)
 MEND = (
@@ -60,37 +60,35 @@ class KeptRun:
     horizon: float = math.inf
 
 
-def kept_run(result: Result) -> KeptRun:
-    """What is kept of a run.
+def kept_run(item: Result | Mapping[str, Estimate]) -> KeptRun:
+    """What is kept of a run, or of numbers of one's own by their names.
 
     Beyond the horizon impacts depend on the steps, and so does any number of the whole run: of a run with a
     horizon no numbers are kept.
 
-    result: with errors. Raises InputError if the result has nothing to estimate errors by.
+    Raises InputError if a result has nothing to estimate errors by.
     """
-    if result.coarser is None:
+    made = {**provenance(), "sources": program()["sources"]}
+    if not isinstance(item, Result):
+        return KeptRun(numbers=dict(item), provenance=made)
+    if item.coarser is None:
         raise InputError(
             "the run has no numerical errors, so that no change can be recognised; allowed: a run with an "
             "accuracy, or made with errors=True"
         )
-    end = determined_until(result)
-    rows = np.unique(np.linspace(0, result.time.size - 1, RECORDS).round().astype(np.intp))
-    names = [name for name, channel in result.channels.items() if name != "time" and channel.is_determined]
-    own = {f"module {name}": digest for name, digest in own_sources(result.scenario.plain).items()}
+    end = determined_until(item)
+    rows = np.unique(np.linspace(0, item.time.size - 1, RECORDS).round().astype(np.intp))
+    names = [name for name, channel in item.channels.items() if name != "time" and channel.is_determined]
+    own = {f"module {name}": digest for name, digest in own_sources(item.scenario.plain).items()}
     return KeptRun(
-        numbers=result.numbers() if math.isinf(end) else {},
-        provenance={**result.provenance, "sources": program()["sources"], **own},
+        numbers=item.numbers() if math.isinf(end) else {},
+        provenance={**item.provenance, "sources": made["sources"], **own},
         curves={
             name: ComparedColumn(column.unit, *(each[rows] for each in column[1:]))
-            for name, column in recorded_columns(result, names).items()
+            for name, column in recorded_columns(item, names).items()
         },
         horizon=end,
     )
-
-
-def kept_numbers(numbers: Mapping[str, Estimate]) -> KeptRun:
-    """Numbers of one's own with their errors, kept as those of a run are."""
-    return KeptRun(numbers=dict(numbers), provenance={**provenance(), "sources": program()["sources"]})
 
 
 def determined_until(result: Result) -> float:
@@ -115,6 +113,10 @@ class RunChange(NamedTuple):
     values: str = ""
     ratio: float = math.inf
 
+    def __str__(self) -> str:
+        """The change in a sentence."""
+        return f"{self.kind} {self.what} {self.name}{': ' * bool(self.values)}{self.values}"
+
 
 def changes(old: KeptRun, new: KeptRun) -> list[RunChange]:
     """All that has changed by more than the errors of both runs, is new, or gone, the worst first.
@@ -124,16 +126,13 @@ def changes(old: KeptRun, new: KeptRun) -> list[RunChange]:
     the horizon of either run.
     """
     was, now = dict(_leaves(old.scenario)), dict(_leaves(new.scenario))
-    keys = [
-        RunChange(
-            "gone" if name not in now else "new" if name not in was else "changed",
-            "key",
-            name,
-            " -> ".join(str(side[name]) for side in (was, now) if name in side),
-        )
-        for name in sorted({*was, *now})
-        if name not in was or name not in now or was[name] != now[name]
-    ]
+    keys = []
+    for name in sorted({*was, *now}):
+        if name in was and name in now and was[name] == now[name]:
+            continue
+        kind = "gone" if name not in now else "new" if name not in was else "changed"
+        values = " -> ".join(str(side[name]) for side in (was, now) if name in side)
+        keys.append(RunChange(kind, "key", name, values))
     rest = list(_changed_columns("channel", old.curves, new.curves, min(old.horizon, new.horizon)))
     if math.isinf(old.horizon) == math.isinf(new.horizon):
         mine, its = (
@@ -174,10 +173,10 @@ def _leaves(data: Any, place: str = "") -> Iterator[tuple[str, Any]]:
         yield place, data
 
 
-def lines(changes: Sequence[RunChange], most: int = SHOWN) -> list[str]:
+def lines(changes: Sequence[RunChange], most: int) -> list[str]:
     """The first changes as sentences, and how many more there are."""
-    shown = [f"{each.kind} {each.what} {each.name}{': ' * bool(each.values)}{each.values}" for each in changes]
-    return shown[:most] + [f"and {len(changes) - most} more"] * (len(changes) > most)
+    more = [f"and {len(changes) - most} more"] if len(changes) > most else []
+    return [*map(str, changes[:most]), *more]
 
 
 # --- the file ---
@@ -194,12 +193,12 @@ def write_baseline(kept: KeptRun, path: Path) -> None:
             name: f"{float(number.value)!r} {_text([number.error], OF_ERRORS)} {number.unit}"
             for name, number in kept.numbers.items()
         },
-        "time_s": _text(time.tolist(), DIGITS),
+        "time_s": _text(time, DIGITS),
         "curves": {
             name: {
                 "unit": curve.unit,
-                "values": _text(curve.values.tolist(), DIGITS),
-                "errors": _text(curve.errors.tolist(), OF_ERRORS),
+                "values": _text(curve.values, DIGITS),
+                "errors": _text(curve.errors, OF_ERRORS),
             }
             for name, curve in kept.curves.items()
         },
@@ -215,6 +214,12 @@ def _text(values: Iterable[float], digits: int) -> str:
     return " ".join(f"{value:.{digits}g}" if math.isfinite(value) else "nan" for value in values)
 
 
+def _numbers(text: str, unknown: float = math.nan) -> Series:
+    """The numbers of a text; unknown: what stands for nan, infinite of errors."""
+    numbers = np.array(text.split(), dtype=np.float64)
+    return np.where(np.isnan(numbers), unknown, numbers)
+
+
 def read_baseline(path: Path) -> KeptRun:
     """Read what `write_baseline` wrote.
 
@@ -223,39 +228,27 @@ def read_baseline(path: Path) -> KeptRun:
     if not path.exists():
         raise missing_file(path, "the file of a baseline")
     try:
-        data = json.loads(contents(path, MOST).decode("utf-8"))
-        if not isinstance(data, dict) or data.pop("format", None) != FORMAT:
+        data = json.loads(contents(path, MOST))
+        if data["format"] != FORMAT:
             raise ValueError(f"it does not begin with {FORMAT!r}")
         time = _numbers(data["time_s"])
-        return KeptRun(
-            numbers={name: _estimate(*text.split(" ", 2)) for name, text in data["numbers"].items()},
-            provenance=data["provenance"],
-            scenario=data["scenario"],
-            curves={name: _curve(time, **curve) for name, curve in data["curves"].items()},
-            horizon=math.inf if data["horizon_s"] is None else data["horizon_s"],
-        )
+        curves = {
+            name: ComparedColumn(
+                each["unit"], time, _numbers(each["values"]), _numbers(each["errors"], math.inf)
+            )
+            for name, each in data["curves"].items()
+        }
+        if any(not time.size == each.values.size == each.errors.size for each in curves.values()):
+            raise ValueError("a curve has more or fewer values than there are times")
+        numbers = {}
+        for name, text in data["numbers"].items():
+            value, error, unit = text.split(" ", 2)
+            numbers[name] = Estimate(float(value), float(_numbers(error, math.inf)[0]), unit)
+        end = math.inf if data["horizon_s"] is None else data["horizon_s"]
+        return KeptRun(numbers, data["provenance"], data["scenario"], curves, end)
     except DAMAGES as error:
         why = cleaned(" ".join(str(error).split()))[:200]
         raise InputError(f"{path}: is no baseline, or damaged ({why}); {MEND}") from None
-
-
-def _estimate(value: str, error: str, unit: str) -> Estimate:
-    return Estimate(float(value), float(_numbers(error, math.inf)[0]), unit)
-
-
-def _curve(time: Series, unit: str | None, values: str, errors: str) -> ComparedColumn:
-    """A curve. Raises ValueError if it has not as many values and errors as times."""
-    column = ComparedColumn(unit, time, _numbers(values), _numbers(errors, math.inf))
-    if not column.values.size == column.errors.size == time.size:
-        raise ValueError("a curve has more or fewer values than there are times")
-    return column
-
-
-def _numbers(text: str, unknown: float = math.nan) -> Series:
-    """The numbers of a text; unknown: what stands for nan, infinite of errors."""
-    return np.nan_to_num(
-        np.array(text.split(), dtype=np.float64), nan=unknown, posinf=math.inf, neginf=-math.inf
-    )
 
 
 # --- the scenarios of a folder ---
@@ -271,7 +264,7 @@ class CheckedScenario:
 
     name: str
     was: KeptRun | None
-    now: KeptRun | None
+    now: KeptRun | None = None
     changes: tuple[RunChange, ...] = ()
     failed: str = ""
 
@@ -298,13 +291,15 @@ class BaselineFolder:
         if not path.is_dir():
             raise InputError(f"{path}: is no folder; allowed: one with scenarios, *.toml")
         self.path = path
-        self.kept = path / FOLDER
-        self.scenarios: Mapping[str, ScenarioFile] = {
-            file.stem: read_scenario_file(file) for file in sorted(path.glob("*.toml")) if _is_scenario(file)
-        }
-        self.baselines: Mapping[str, Path] = {
-            file.stem: file for file in sorted(self.kept.glob(f"*{ENDING}")) if file.is_file()
-        }
+        self.scenarios: dict[str, ScenarioFile] = {}
+        for file in sorted(path.glob("*.toml")):
+            table = load_toml(file)
+            if (
+                "machine" in table or not OTHER_FILES.keys() & table.keys()
+            ):  # or nothing known, which is refused
+                self.scenarios[file.stem] = read_scenario_file(file)
+        files = sorted((path / FOLDER).glob(f"*{ENDING}"))
+        self.baselines = {file.stem: file for file in files if file.is_file()}
         self.names = sorted({*self.scenarios, *self.baselines})  # of scenarios, and of baselines without one
         if not self.names:
             raise InputError(f"{path}: has no scenario; allowed: a folder with scenarios, *.toml")
@@ -319,23 +314,23 @@ class BaselineFolder:
             if name not in self.names:
                 raise InputError(f"{name}: no such scenario in {self.path}; allowed: {', '.join(self.names)}")
         kept = {name: read_baseline(self.baselines[name]) for name in names if name in self.baselines}
+
+        def share_done(n: int, share: float) -> None:
+            progress((n + share) / len(names))
+
         for n, name in enumerate(names):
             was, file = kept.get(name), self.scenarios.get(name)
             if file is None:
-                yield CheckedScenario(name, was, None)
+                yield CheckedScenario(name, was)
                 continue
-
-            def part(share: float, n: int = n) -> None:
-                progress((n + share) / len(names))
-
+            scene = file.scenario
+            errors = file.errors or scene.accuracy is None
             try:
-                run = simulate(
-                    file.scenario, errors=file.errors or file.scenario.accuracy is None, progress=part
-                )
+                run = simulate(scene, errors=errors, progress=partial(share_done, n))
             except SimulationError as error:
-                yield CheckedScenario(name, was, None, failed=" ".join(str(error).split()))
+                yield CheckedScenario(name, was, failed=" ".join(str(error).split()))
                 continue
-            now = replace(kept_run(run), scenario=file.scenario.plain)
+            now = replace(kept_run(run), scenario=scene.plain)
             yield CheckedScenario(name, was, now, tuple(changes(was, now)) if was is not None else ())
         progress(1.0)
 
@@ -344,17 +339,12 @@ class BaselineFolder:
 
         Raises OSError if the file cannot be written, or if another process writes to the folder.
         """
-        path = self.kept / f"{checked.name}{ENDING}"
-        self.kept.mkdir(exist_ok=True)
-        with writing_alone(self.kept):
+        folder = self.path / FOLDER
+        path = folder / f"{checked.name}{ENDING}"
+        folder.mkdir(exist_ok=True)
+        with writing_alone(folder):
             if checked.now is None:
                 path.unlink(missing_ok=True)
             else:
                 write_baseline(checked.now, path)
         return path
-
-
-def _is_scenario(path: Path) -> bool:
-    """Whether a file is that of a scenario, or nothing that this program reads, which is then refused."""
-    table = load_toml(path)
-    return "machine" in table or not OTHER_FILES.keys() & table.keys()

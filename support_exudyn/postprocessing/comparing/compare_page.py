@@ -23,7 +23,6 @@ from support_exudyn.postprocessing.page.pieces import ShownFigure, ShownTable, i
 from user_forces.values.value import InputError
 
 TEMPLATE = "compare.html.j2"
-FIGURES, PAGES = (".png", ".pdf", ".svg"), (".html",)
 REFERENCE: tuple[str, style.Dashes] = (style.IDEAL, "-")
 OTHERS = tuple(look for look in style.CURVES if look[0] != style.IDEAL)
 MOST = 8  # channels
@@ -37,17 +36,11 @@ CAPTION = (
 )
 
 
-def check_ending(path: Path, endings: tuple[str, ...]) -> None:
-    """Raise InputError for a file of a kind that is not written."""
-    if path.suffix.lower() not in endings:
-        raise InputError(f"{path}: allowed: a file that ends in {', '.join(endings)}")
-
-
 def write_figure(compared: FilesCompared, path: Path) -> None:
-    """Write the figure, whole or not at all, as its ending says. Raises InputError as `compare_figure` does."""
-    check_ending(path, FIGURES)
+    """Write the figure, as its ending says, else as PNG. Raises InputError as `compare_figure` does."""
     with style.look(), whole_file(path) as temporary:
-        compare_figure(compared).savefig(temporary, format=path.suffix.lower()[1:])
+        kind = {".pdf": "pdf", ".svg": "svg"}.get(path.suffix.lower(), "png")
+        compare_figure(compared).savefig(temporary, format=kind)
 
 
 def compare_figure(compared: FilesCompared, most: int | None = None) -> Figure:
@@ -92,15 +85,14 @@ def _panels(compared: FilesCompared, name: str) -> list[tuple[str, list[Curve]]]
     """Unit and curves of the two panels of a channel: those of the files, and the differences."""
     there = [(pair, look) for pair, look in zip(compared.pairs, OTHERS, strict=False) if name in pair.channels]
     channels = [pair.channels[name] for pair, _ in there]
-    unit, times = channels[0].unit, [channel.common.time for channel in channels]
-    first, last = min(time[0] for time in times), max(time[-1] for time in times)
+    unit, times = channels[0].unit, np.concatenate([channel.common.time for channel in channels])
     curves, differences = [], []
-    for file, (colour, dashes) in (
+    for file, (colour, dashes) in [
         (compared.reference, REFERENCE),
         *((pair.other, look) for pair, look in there),
-    ):
+    ]:
         column = file.columns[name].in_unit(unit, name)
-        shown = (column.time >= first) & (column.time <= last)
+        shown = (column.time >= times.min()) & (column.time <= times.max())
         few = file.run is None and np.count_nonzero(shown) <= FEW
         line = column.time[shown], column.values[shown]
         curves.append(Curve(file.name, *line, None, colour, "" if few else dashes))
@@ -137,12 +129,9 @@ def write_page(compared: FilesCompared, path: Path) -> None:
 
     Its live figures have all channels, and the printed ones of more than `MOST` channels the first.
     """
-    check_ending(path, PAGES)
     drawn = [FilesCompared(compared.reference, (pair,)) for pair in compared.pairs]
     figures = [compare_figure(each, len(each.pairs[0].channels)) for each in drawn]
-    pages = html(
-        {f"curves{n}": of_drawing(figure, range(len(figure.axes))) for n, figure in enumerate(figures)}
-    )
+    live = html({f"curves{n}": of_drawing(each, range(len(each.axes))) for n, each in enumerate(figures)})
     files = []
     with tempfile.TemporaryDirectory() as folder, style.look():
         for n, pair in enumerate(compared.pairs):
@@ -154,13 +143,9 @@ def write_page(compared: FilesCompared, path: Path) -> None:
                 "faults": pair.faults,
                 "sentences": [line[:1].upper() + line[1:].rstrip(".") for line in tables.notes(pair)],
                 "tables": [ShownTable(tables.table(pair))],
-                "curves": ShownFigure(image(printed), CAPTION, Markup(pages.places[f"curves{n}"])),
+                "curves": ShownFigure(image(printed), CAPTION, Markup(live.places[f"curves{n}"])),
             })  # fmt: skip
-    page = {
-        "title": _title(compared),
-        "verdict": tables.conclusion(compared),
-        "files": files,
-    }
-    text = templates().get_template(TEMPLATE).render(page=page, scripts=Markup(pages.scripts))
+    page = {"title": _title(compared), "verdict": tables.conclusion(compared), "files": files}
+    text = templates().get_template(TEMPLATE).render(page=page, scripts=Markup(live.scripts))
     with whole_file(path) as temporary:
         temporary.write_text(text, encoding="utf-8")

@@ -32,7 +32,7 @@ Verdict = Literal["differs", "not decided", "not comparable", "differs within to
 WORST_FIRST: tuple[Verdict, ...] = (
     "differs", "not decided", "differs within tolerance", "agrees", "not comparable",
 )  # fmt: skip
-FAILED: tuple[Verdict, ...] = ("differs", "not decided")  # if there is a tolerance
+FAILED: tuple[Verdict, ...] = WORST_FIRST[:2]  # if there is a tolerance
 LARGEST = "largest"  # the measure that is judged
 ANGLE, TURN = "rad", 2.0 * math.pi
 LEFT_OF_A_TURN = 1e-6  # share by which a file's digits may leave the range of a wrapped angle
@@ -66,12 +66,11 @@ class ComparedColumn(NamedTuple):
 
         Raises InputError if the column's own unit is not known or of another kind.
         """
-        column = self
+        values, errors = self.values, self.errors
         if self.unit != unit and not (self.unit is None and not self.time.size):
             zero, one = converted(NamedSeries(name, self.unit, np.zeros(2), np.array([0.0, 1.0])), unit)
-            scale = one - zero
-            column = self._replace(values=zero + scale * self.values, errors=abs(scale) * self.errors)
-        return column._replace(unit=unit, values=_unwrapped(column.values) if unit == ANGLE else column.values)
+            values, errors = zero + (one - zero) * values, abs(one - zero) * errors
+        return ComparedColumn(unit, self.time, _unwrapped(values) if unit == ANGLE else values, errors)
 
     def errors_at(self, at: Values) -> Values:
         """Errors at other times [s], (m,): those of the next record, as errors grow with time."""
@@ -86,12 +85,11 @@ def _unwrapped(angle: Values) -> Values:
     An angle was wrapped if all values lie within a turn and neighbours are more than half a turn apart.
     """
     known = np.isfinite(angle)
-    values = angle[known]
-    jumps = np.abs(np.diff(values)).max(initial=0.0) > 0.5 * TURN
-    if not jumps or np.ptp(values) > (1.0 + LEFT_OF_A_TURN) * TURN:
+    jumps = np.abs(np.diff(angle[known])).max(initial=0.0) > 0.5 * TURN
+    if not jumps or np.ptp(angle[known]) > (1.0 + LEFT_OF_A_TURN) * TURN:
         return angle
     continuous = angle.copy()
-    continuous[known] = np.unwrap(values)
+    continuous[known] = np.unwrap(angle[known])
     return continuous
 
 
@@ -153,13 +151,8 @@ class ComparedChannel:
     @property
     def largest(self) -> Estimate:
         """Magnitude of the largest difference before the horizon with its error; NaN if nothing lies before."""
-        if math.isnan(self.measures.largest):
-            return Estimate(math.nan, math.nan, self.unit)
-        return Estimate(abs(self.measures.largest), float(self.errors[self._largest_at]), self.unit)
-
-    @property
-    def _largest_at(self) -> int:
-        return int(np.searchsorted(self.common.time, self.measures.largest_time))
+        row = next(row for row in self.rows if row.measure == LARGEST)
+        return Estimate(abs(row.difference), row.error, self.unit)
 
     @cached_property
     def _multiples(self) -> Values:
@@ -185,23 +178,22 @@ class ComparedChannel:
 
         A percentage is not judged, nor is the mean. Without a tolerance the numerical errors decide.
         """
-        measures, (reference, other, mean) = self.measures, self.means
-        rows = [
-            ComparedRow(
-                self.name, self.unit, "mean", math.nan, reference.value, other.value, mean.value, mean.error
-            ),
-            self._largest_row(),
-            ComparedRow(self.name, PERCENT, "RMS/range", difference=100.0 * measures.rms_of_range),
-            ComparedRow(self.name, PERCENT, "C", difference=100.0 * measures.combined_error),
-        ]
-        for name, each in self.statistics.items():
-            plain = ComparedRow(
-                self.name, self.unit, f"{name} after the horizon", math.nan, *each, self.allowed
-            )
+        (reference, other, mean), name = self.means, self.name
+        sides = reference.value, other.value, mean.value, mean.error
+        rows = [ComparedRow(name, self.unit, "mean", math.nan, *sides), self._largest_row()]
+        for measure, share in (
+            ("RMS/range", self.measures.rms_of_range),
+            ("C", self.measures.combined_error),
+        ):
+            rows.append(ComparedRow(name, PERCENT, measure, difference=100.0 * share))
+        for statistic, each in self.statistics.items():
+            measure = f"{statistic} after the horizon"
+            row = ComparedRow(name, self.unit, measure, math.nan, *each, self.allowed)
             if self.tolerance is not None:
-                rows.append(self._judged(plain, bool(each.equal)))
+                row = self._judged(row, bool(each.equal))
             elif each.equal is not None:
-                rows.append(plain._replace(verdict="agrees" if each.equal else "differs"))
+                row = row._replace(verdict="agrees" if each.equal else "differs")
+            rows.append(row)
         return tuple(rows)
 
     def _largest_row(self) -> ComparedRow:
@@ -210,7 +202,7 @@ class ComparedChannel:
         Where numerical errors decide, the reason of the verdict is that of the record with the largest multiple
         of its error. Curves that are the same to the bit have the same errors, whatever these are.
         """
-        row, common = ComparedRow(self.name, self.unit, LARGEST, tolerance=self.allowed), self.common
+        common, row = self.common, ComparedRow(self.name, self.unit, LARGEST, tolerance=self.allowed)
         unknown = math.isnan(self.measures.largest)
         if self.gaps:
             reason = f"not decided: no value at {self.gaps} times at which the reference has a value"
@@ -219,29 +211,23 @@ class ComparedChannel:
             row = row._replace(verdict="not decided", reason="not decided: there are no two common values")
         if unknown:
             return row
-        row = self._at(row, self._largest_at)
-        if row.verdict:
-            return row
-        if np.array_equal(common.reference, common.other, equal_nan=True):
-            return row._replace(verdict="agrees", reason="is the same")
-        decides = self._largest_at
-        if (self.tolerance is None or self.tolerance.is_errors) and self.over_errors > 1.0:
-            decides = int(self._multiples.argmax())
-        judged = self._judged(
-            self._at(row, decides), self.over_errors <= 1.0, float(common.interpolation_error[decides])
-        )
-        return row._replace(verdict=judged.verdict, reason=judged.reason)
 
-    def _at(self, row: ComparedRow, place: int) -> ComparedRow:
-        """A row with the values at a place among the common times."""
-        common = self.common
-        return row._replace(
-            time=float(common.time[place]) if common.time.size > 1 else math.nan,
-            reference=float(common.reference[place]),
-            other=float(common.other[place]),
-            difference=float(common.difference[place]),
-            error=float(self.errors[place]),
-        )
+        def at(place: int) -> ComparedRow:
+            time = float(common.time[place]) if common.time.size > 1 else math.nan
+            numbers = common.reference, common.other, common.difference, self.errors
+            mine, its, apart, error = (float(each[place]) for each in numbers)
+            return row._replace(time=time, reference=mine, other=its, difference=apart, error=error)
+
+        place = int(np.searchsorted(common.time, self.measures.largest_time))
+        shown = at(place)
+        if shown.verdict:
+            return shown
+        if np.array_equal(common.reference, common.other, equal_nan=True):
+            return shown._replace(verdict="agrees", reason="is the same")
+        if (self.tolerance is None or self.tolerance.is_errors) and self.over_errors > 1.0:
+            place = int(self._multiples.argmax())
+        judged = self._judged(at(place), self.over_errors <= 1.0, float(common.interpolation_error[place]))
+        return shown._replace(verdict=judged.verdict, reason=judged.reason)
 
     def _judged(self, row: ComparedRow, agrees: bool, interpolation: float = math.nan) -> ComparedRow:
         """A row with its verdict and the reason, by the tolerance, or by the numerical errors.
@@ -252,19 +238,19 @@ class ComparedChannel:
         agrees: whether the numerical errors explain the difference. interpolation: the error where that of the
         row is not known.
         """
-        times, rule, apart = self.over_errors, self.tolerance, abs(row.difference)
+        rule, apart = self.tolerance, abs(row.difference)
         error = interpolation if math.isnan(row.error) else row.error
         known = f"the numerical error of {amount(error, row.unit, 2)}"
         verdict: Verdict = "differs"
         if rule is None or rule.is_errors:
             because = f"more than {known}"
-            if math.isnan(times):
+            if agrees:
+                verdict = "agrees"
+            elif math.isnan(self.over_errors):
                 verdict, because = "not decided" if rule else "differs", "and no numerical error is known"
-            elif rule is None and times < CERTAIN:
-                verdict, because = (
-                    "not decided",
-                    f"{because}, but less than {CERTAIN:g} times, so not certainly",
-                )
+            elif rule is None and self.over_errors < CERTAIN:
+                verdict = "not decided"
+                because += f", but less than {CERTAIN:g} times, so not certainly"
         else:
             bound = f"the tolerance of {amount(row.tolerance, row.unit, 4)} ({rule.text})"
             because = f"more than {bound}"
@@ -273,9 +259,8 @@ class ComparedChannel:
                 known = known if math.isfinite(error) else "an unknown numerical error"
                 verdict, because = "not decided", f"not decided by {bound} with {known}"
             elif apart <= row.tolerance * (1.0 + ROUNDING):
-                verdict, because = "differs within tolerance", f"not {because}"
-        if agrees and (rule is None or rule.is_errors or verdict == "differs within tolerance"):
-            verdict, because = "agrees", f"within {known}"
+                verdict, because = "agrees" if agrees else "differs within tolerance", f"not {because}"
+        because = f"within {known}" if verdict == "agrees" else because
         at = f" at {row.time:.6g} s" if math.isfinite(row.time) else ""
         what = "" if row.measure == LARGEST else f"the {row.measure} is "
         reason = (
@@ -294,9 +279,8 @@ class ComparedChannel:
     @property
     def faults(self) -> list[str]:
         """Why a channel is not within its tolerance, or not decided: a sentence a row, the worst first."""
-        bad = [row for row in self.rows if row.verdict in FAILED] if self.tolerance is not None else []
-        bad.sort(key=lambda row: FAILED.index(row.verdict or "differs"))
-        return [f"{self.name}: {row.reason}" for row in bad]
+        rows = self.rows if self.tolerance is not None else ()
+        return [f"{self.name}: {row.reason}" for bad in FAILED for row in rows if row.verdict == bad]
 
 
 def compared(
@@ -332,8 +316,7 @@ def compared(
         unit = other.unit if other.unit is not None else reference.unit or ""
     reference, other = reference.in_unit(unit, name), other.in_unit(unit, name)
     if other.time.size:
-        curves = reference.time, reference.values, other.time, other.values
-        common = on_common_times(*curves, after, until)
+        common = on_common_times(reference.time, reference.values, other.time, other.values, after, until)
         known = common.reference[np.isfinite(common.reference)]
         extent = float(np.ptp(known)) if known.size else 0.0
         apart = common.difference[np.isfinite(common.difference)]
@@ -342,32 +325,24 @@ def compared(
     else:
         common = CommonCurves(np.zeros(1), reference.values, other.values, np.zeros(1))
         extent = abs(float(reference.values[0]))
-    mine, its = reference.errors_at(common.time), other.errors_at(common.time)
-    unknown = np.isnan(mine) & np.isnan(its)
-    errors = np.where(
-        unknown, math.nan, np.nan_to_num(mine, posinf=math.inf) + np.nan_to_num(its, posinf=math.inf)
-    )
+    both = np.array([column.errors_at(common.time) for column in (reference, other)])
+    errors = np.where(np.isnan(both).all(axis=0), math.nan, np.nan_to_num(both, posinf=math.inf).sum(axis=0))
     errors = errors + common.interpolation_error
-    before = common.time < horizon
-    return ComparedChannel(
-        name,
-        unit,
-        common,
-        errors,
-        int(before.sum()),
-        curve_measures(common.time[before], common.reference[before], common.other[before]),
-        _means(common, errors, unit),
-        compared_statistics(common.reference[~before], common.other[~before], among),
-        tolerance,
-        math.nan if tolerance is None else tolerance.in_si(name, unit, extent),
-    )
-
-
-def _means(common: CommonCurves, errors: Values, unit: str) -> tuple[Estimate, Estimate, Estimate]:
-    """Means over time by straight lines between the common times, with the mean of the errors."""
-    measures = curve_measures(common.time, common.reference, common.other)
+    whole = curve_measures(common.time, common.reference, common.other)
     error = curve_measures(common.time, np.zeros(errors.size), errors).mean_other
     error = math.inf if np.isinf(errors).any() else error
-    means = measures.mean_reference, measures.mean_other, measures.mean_difference
-    first, second, apart = (Estimate(mean, error, unit) for mean in means)
-    return first, second, apart
+    means = (whole.mean_reference, whole.mean_other, whole.mean_difference)
+    mine, its, difference = (Estimate(mean, error, unit) for mean in means)
+    before = common.time < horizon
+    return ComparedChannel(
+        name=name,
+        unit=unit,
+        common=common,
+        errors=errors,
+        before=int(before.sum()),
+        measures=curve_measures(common.time[before], common.reference[before], common.other[before]),
+        means=(mine, its, difference),
+        statistics=compared_statistics(common.reference[~before], common.other[~before], among),
+        tolerance=tolerance,
+        allowed=math.nan if tolerance is None else tolerance.in_si(name, unit, extent),
+    )

@@ -22,7 +22,7 @@ from support_exudyn.files.series.named_series import Progress, SeriesFile, silen
 from support_exudyn.files.series.own_runs import is_run
 from support_exudyn.files.series.read import read_series
 from support_exudyn.postprocessing.comparing.compared_channel import ComparedColumn
-from support_exudyn.postprocessing.comparing.mapping import CompareFile, MappedFile
+from support_exudyn.postprocessing.comparing.mapping import MappedFile
 from support_exudyn.postprocessing.figures.channels import error_over_time
 from support_exudyn.scenario.timescales import timescales
 from support_exudyn.simulation.estimate import Estimate
@@ -117,64 +117,43 @@ def run_or_series(
     if is_own:
         return Result.load(path)
     mapped = mapped or MappedFile()
-    return read_series(
-        path,
-        units=mapped.units,
-        analysis=mapped.analysis,
-        sheet=mapped.sheet,
-        rate=mapped.rate,
-        names=names,
-        progress=progress,
-    )
+    settings = {"analysis": mapped.analysis, "sheet": mapped.sheet}
+    return read_series(path, units=mapped.units, rate=mapped.rate, names=names, progress=progress, **settings)
 
 
-def read_files(
-    files: Sequence[Path | Result], mapping: CompareFile, channels: Sequence[str], progress: Progress
-) -> list[ComparedFile]:
-    """Files, called by their names; with folder or place if another file has the same name."""
-    read: list[ComparedFile] = []
-    for n, source in enumerate(files):
-        if isinstance(source, Result):
-            name = f"run {n + 1}"
-            read.append(_of_run(source, Path(name), name))
-            continue
-        alike = {each for each in files if isinstance(each, Path) and each.name == source.name}
-        name = source.name if len(alike) == 1 else str(source)
-        name = f"{name} ({n + 1})" if name in [file.name for file in read] else name
-
-        def piece(share: float, n: int = n) -> None:
-            progress((n + share) / len(files))
-
-        read.append(_compared_file(source, mapping.of(source), name, channels, piece))
-    progress(1.0)
-    return read
-
-
-def _compared_file(
-    path: Path, mapped: MappedFile, name: str, channels: Sequence[str], progress: Progress
+def compared_file(
+    source: Path | Result,
+    name: str,
+    mapped: MappedFile,
+    channels: Sequence[str] = (),
+    progress: Progress = silent,
 ) -> ComparedFile:
-    """Read a file with the channels of a mapping, which take the place of the columns of others' files.
+    """A run, or a file with the channels of its mapping, which take the place of the columns of others' files.
 
     channels: patterns of those that are wanted, all if there are none: others take no memory.
     """
-    needed = [glob.escape(column.column) for column in mapped.columns.values()]
-    try:
-        read = run_or_series(path, mapped, [*channels, *needed] if channels else [], progress)
-    except InputError:  # read all, so that an error can name the columns
-        read = run_or_series(path, mapped, (), progress)
+    if isinstance(source, Result):
+        read: Result | SeriesFile = source
+        path = Path(name)
+    else:
+        path, needed = source, [glob.escape(column.column) for column in mapped.columns.values()]
+        try:
+            read = run_or_series(path, mapped, [*channels, *needed] if channels else [], progress)
+        except InputError:  # read all, so that an error can name the columns
+            read = run_or_series(path, mapped, (), progress)
     if isinstance(read, Result):
-        file = _of_run(read, path, name)
+        file = ComparedFile(name, path, "run of this program", recorded_columns(read), read)
     else:
         series = {column: ComparedColumn.of_series(each) for column, each in read.series.items()}
         file = ComparedFile(name, path, read.kind, series, notes=read.notes)
+    sources = {channel: each.column for channel, each in mapped.columns.items()}
     lacking = [
-        f"{path}: has no column {each.column!r} for {channel}; {nearest(each.column, list(file.columns))}"
-        for channel, each in mapped.columns.items()
-        if each.column not in file.columns
+        f"{path}: has no column {column!r} for {channel}; {nearest(column, list(file.columns))}"
+        for channel, column in sources.items()
+        if column not in file.columns
     ]
     if lacking:
         raise InputError("\n".join(lacking))
-    sources = {channel: each.column for channel, each in mapped.columns.items()}
     columns = {}
     for channel, each in mapped.columns.items():
         column = file.columns[each.column]
@@ -183,11 +162,6 @@ def _compared_file(
         if file.run is not None or channel not in sources.values():
             columns.setdefault(channel, column)
     return replace(file, columns=columns, mapped=sources).shifted(mapped.shift)
-
-
-def _of_run(run: Result, path: Path, name: str) -> ComparedFile:
-    """A run as a file that is compared."""
-    return ComparedFile(name, path, "run of this program", recorded_columns(run), run)
 
 
 # --- errors of a run's channels ---
@@ -216,7 +190,11 @@ def curve_errors(result: Result, names: Iterable[str]) -> dict[str, Values]:
     errors = {name: np.full(result.time.size, math.nan) for name in names}
     if result.coarser is None:
         return errors
-    least, beyond, largest = least_errors(result), result.time >= result.horizon, _largest_values(result)
+    largest: dict[str, float] = {}
+    for channel in result.channels.values():
+        size = float(np.abs(channel.values[np.isfinite(channel.values)]).max(initial=0.0))
+        largest[channel.unit] = max(largest.get(channel.unit, 0.0), size)
+    least, beyond = _least_errors(result, largest), result.time >= result.horizon
     for name in errors:
         single = error_over_time(result, name)
         if single is not None:
@@ -231,16 +209,7 @@ def curve_errors(result: Result, names: Iterable[str]) -> dict[str, Values]:
     return errors
 
 
-def _largest_values(result: RecordedRun) -> Mapping[str, float]:
-    """The largest magnitude of all channels of a unit, by unit."""
-    largest: dict[str, float] = {}
-    for channel in result.channels.values():
-        size = float(np.abs(channel.values[np.isfinite(channel.values)]).max(initial=0.0))
-        largest[channel.unit] = max(largest.get(channel.unit, 0.0), size)
-    return largest
-
-
-def least_errors(result: RecordedRun) -> Mapping[str, float]:
+def _least_errors(result: RecordedRun, largest: Mapping[str, float]) -> Mapping[str, float]:
     """The least error that coarser runs can show, by unit: a share of the sizes of a run's motion and forces.
 
     The share is the tolerance that steps are chosen by, else what Newton's method leaves, or rounding. A step
@@ -248,6 +217,8 @@ def least_errors(result: RecordedRun) -> Mapping[str, float]:
     shortest time in which anything moves (`Timescales`), and of the largest force F, of F d in energy.
     Angles: per 1 m. A scene at rest can be the same to the bit in all of its runs, whatever it is in the
     limit. Without the contact's law, whose module is not imported, the mean step stands for T.
+
+    largest: the largest magnitude of all channels of a unit, by unit.
     """
     scenario = result.scenario
     try:
@@ -257,7 +228,6 @@ def least_errors(result: RecordedRun) -> Mapping[str, float]:
         shortest = scenario.duration / max(1, result.counts.steps)
     share = scenario.solver.tolerance if scenario.chooses_steps else max(left_by_newton(scenario), ROUNDING)
     length = min((place.play for place in scenario.contact_places.values()), default=0.0)
-    largest = _largest_values(result)
     moving = {
         unit + per: length / arm / shortest**power
         for unit, arm in (("m", 1.0), ("rad", ARM))

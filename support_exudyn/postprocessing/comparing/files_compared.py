@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 
 import numpy as np
@@ -20,17 +20,17 @@ from support_exudyn.postprocessing.comparing.compared_channel import (
     compared,
     worst,
 )
-from support_exudyn.postprocessing.comparing.compared_file import ComparedFile, read_files
+from support_exudyn.postprocessing.comparing.compared_file import ComparedFile, compared_file
 from support_exudyn.postprocessing.comparing.mapping import (
     CompareFile,
+    MappedFile,
     Tolerance,
-    of_channel,
     read_compare_file,
     read_tolerances,
     tolerances_of,
 )
 from support_exudyn.postprocessing.comparing.measures import STATISTICS, TimeShift, time_shift
-from support_exudyn.postprocessing.figures.selection import matching
+from support_exudyn.postprocessing.figures.selection import is_called, matching
 from support_exudyn.postprocessing.figures.units import QUANTITIES
 from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.result import Result
@@ -73,18 +73,12 @@ class ComparedPair:
     @property
     def verdict(self) -> Verdict:
         """The worst of those on the channels with a tolerance; if there is none, of those on all."""
-        return _verdict(list(self.channels.values()))
+        return FilesCompared(self.reference, (self,)).verdict
 
     @property
     def faults(self) -> list[str]:
         """Why channels are not within their tolerances, or not decided."""
         return [text for channel in self.channels.values() for text in channel.faults]
-
-
-def _verdict(channels: Sequence[ComparedChannel]) -> Verdict:
-    """The worst verdict on channels with a tolerance; if there is none, on all."""
-    judged = [channel for channel in channels if channel.tolerance is not None]
-    return worst(channel.verdict for channel in judged or channels)
 
 
 @dataclass(frozen=True)
@@ -102,7 +96,8 @@ class FilesCompared:
     @property
     def verdict(self) -> Verdict:
         """The worst verdict on channels with a tolerance; if there is none, on all."""
-        return _verdict(self.channels)
+        judged = [channel for channel in self.channels if channel.tolerance is not None]
+        return worst(channel.verdict for channel in judged or self.channels)
 
     @property
     def failed(self) -> bool:
@@ -147,7 +142,7 @@ def compare_files(
         mapping = read_compare_file(Path(mapping), [path for path in files if isinstance(path, Path)])
     mapping = mapping or CompareFile()
     mapping = replace(mapping, rate=mapping.rate or rate)
-    first, *rest = read_files(files, mapping, channels, progress)
+    first, *rest = _read(files, mapping, channels, progress)
     asked = read_tolerances(tolerance) if isinstance(tolerance, str) else list(tolerance)
     tolerances = [*asked, *tolerances_of(mapping)]
     named = [*channels, *(each.pattern for each in tolerances)]
@@ -161,13 +156,32 @@ def compare_files(
         if shift is not None:
             other = other.shifted(-shift.shift)
         pair = ComparedPair(first, other, {}, after, until, shift, left_out)
-        columns = {name: _channel(pair, name, units, of_channel(tolerances, name)) for name in units}
-        pairs.append(replace(pair, channels=columns))
+        pairs.append(replace(pair, channels={name: _channel(pair, name, units, tolerances) for name in units}))
     return FilesCompared(first, tuple(pairs))
 
 
+def _read(
+    files: Sequence[Path | Result], mapping: CompareFile, channels: Sequence[str], progress: Progress
+) -> list[ComparedFile]:
+    """Files, called by their names; with folder or place if another file has the same name."""
+    read: list[ComparedFile] = []
+
+    def share_done(n: int, share: float) -> None:
+        progress((n + share) / len(files))
+
+    for n, source in enumerate(files):
+        name, mapped = f"run {n + 1}", MappedFile()
+        if isinstance(source, Path):
+            alike = {each for each in files if isinstance(each, Path) and each.name == source.name}
+            name, mapped = source.name if len(alike) == 1 else str(source), mapping.of(source)
+            name = f"{name} ({n + 1})" if name in [file.name for file in read] else name
+        read.append(compared_file(source, name, mapped, channels, partial(share_done, n)))
+    progress(1.0)
+    return read
+
+
 def _channel(
-    pair: ComparedPair, name: str, units: Mapping[str, str], tolerance: Tolerance | None
+    pair: ComparedPair, name: str, units: Mapping[str, str], tolerances: Sequence[Tolerance]
 ) -> ComparedChannel:
     """Compare a channel; the means of two runs are taken from all of their steps."""
     reference, other, unit = pair.reference, pair.other, units[name]
@@ -176,7 +190,7 @@ def _channel(
             name,
             reference.columns[name],
             other.columns[name],
-            tolerance,
+            next((each for each in tolerances if is_called(name, each.pattern)), None),
             unit=unit,
             after=pair.after,
             until=pair.until,
@@ -234,7 +248,16 @@ def _common(
     Raises InputError if nothing is left, or if a channel that is named, or mapped, cannot be compared.
     """
     mine, its = reference.columns, other.columns
-    asked = matching(mine, patterns) if patterns else _usual(reference, other)
+    if patterns:
+        asked = matching(mine, patterns)
+    elif reference.run is None:
+        asked = list(mine)
+    elif other.run is None:
+        asked = [name for name in mine if name in its]
+    else:
+        usual = [name for name in summary.telling(reference.run) if not name.startswith("energy.")]
+        mapped = [name for name in (*reference.mapped, *other.mapped) if name in mine]
+        asked = list(dict.fromkeys([*mapped, *usual]))
     lacking = [name for name in named if name in mine and name not in its]
     if lacking or its.keys().isdisjoint(asked):
         shown = "; ".join(f"{file.name} has {first_names(list(file.columns))}" for file in (reference, other))
@@ -257,17 +280,6 @@ def _common(
     if not units:
         raise InputError("\n".join([reason for name, reason in left_out.items() if name in its][:SHOWN]))
     return units, left_out
-
-
-def _usual(reference: ComparedFile, other: ComparedFile) -> list[str]:
-    """The channels that are compared if none is asked for."""
-    if reference.run is None:
-        return list(reference.columns)
-    if other.run is None:
-        return [name for name in reference.columns if name in other.columns]
-    usual = [name for name in summary.telling(reference.run) if not name.startswith("energy.")]
-    mapped = [name for name in (*reference.mapped, *other.mapped) if name in reference.columns]
-    return list(dict.fromkeys([*mapped, *usual]))
 
 
 def first_names(names: Sequence[str]) -> str:

@@ -1,4 +1,4 @@
-"""The work of the pytest plugin: runs that are kept, baselines of tests, closeness to a reference."""
+"""The work of the pytest plugin: runs that are kept, closeness to a reference, baselines of tests."""
 
 from __future__ import annotations
 
@@ -21,7 +21,6 @@ from support_exudyn.postprocessing.comparing.baselines import (
     FOLDER,
     changes,
     determined_until,
-    kept_numbers,
     kept_run,
     lines,
     read_baseline,
@@ -29,7 +28,7 @@ from support_exudyn.postprocessing.comparing.baselines import (
 )
 from support_exudyn.postprocessing.comparing.compared_channel import ComparedChannel, ComparedColumn, compared
 from support_exudyn.postprocessing.comparing.compared_file import recorded_columns, run_or_series
-from support_exudyn.postprocessing.comparing.mapping import BOTH_ERRORS, Tolerance, tolerance
+from support_exudyn.postprocessing.comparing.mapping import BOTH_ERRORS, tolerance
 from support_exudyn.postprocessing.figures.selection import matching
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.estimate import Estimate
@@ -70,56 +69,41 @@ def cached_run(folder: Path, scenario: Scenario, errors: bool = False) -> Result
         return Result.load(simulate(scenario, errors=errors).save(path))
 
 
-class SessionBaselines:
-    """The baselines of the tests of a session.
+def baseline_path(test_file: Path, name: str) -> Path:
+    """The file of a test's baseline, in a folder next to the test's file."""
+    return test_file.parent / FOLDER / f"{NO_NAME.sub('_', name).strip('_.')[:LONGEST] or ALONE}{ENDING}"
 
-    updated: names, or patterns of them, of baselines that are written.
+
+def against_baseline(item: Any, path: Path, updated: Sequence[str]) -> tuple[str, bool]:
+    """Compare with a baseline, or write it if its name is among those.
+
+    Arguments:
+        item: a result with errors, an Estimate, or Estimates by their names.
+        path: of the baseline.
+        updated: names, or patterns of them, of baselines that are written.
+
+    Returns:
+        The changes, or that there is no baseline, in lines, empty if nothing has changed; and whether
+        the baseline was written.
+
+    Raises InputError if it is damaged, or if the item cannot be a baseline.
     """
-
-    def __init__(self, updated: Sequence[str]) -> None:
-        self.updated = tuple(updated)
-        self._used: set[Path] = set()
-
-    def compare(
-        self, item: Result | Estimate | Mapping[str, Estimate], test_file: Path, name: str
-    ) -> tuple[str, bool]:
-        """Compare with the baseline, or write it if its name is among those.
-
-        Arguments:
-            item: what is compared: a result with errors, a number, or numbers by their names.
-            test_file: the file of the test, next to which the folder of baselines is.
-            name: of the baseline.
-
-        Returns:
-            The changes, or that there is no baseline, in lines, empty if nothing has changed; and whether
-            the baseline was written.
-
-        Raises InputError if it is damaged, or if its name was used before.
-        """
-        stem = NO_NAME.sub("_", name).strip("_.")[:LONGEST] or ALONE
-        path = test_file.parent / FOLDER / f"{stem}{ENDING}"
-        if path in self._used:
-            raise InputError(f"{stem}: is compared already; allowed: a name of its own, baseline(it, 'NAME')")
-        self._used.add(path)
-        named = {ALONE: item} if isinstance(item, Estimate) else item
-        if isinstance(named, Result):
-            now = kept_run(named)
-        elif isinstance(named, Mapping) and all(isinstance(each, Estimate) for each in named.values()):
-            now = kept_numbers(named)
-        else:
-            allowed = "a Result with errors, an Estimate, or Estimates by their names"
-            raise InputError(f"{short(item)}: cannot be a baseline; allowed: {allowed}")
-        report = [f"{path}: there is no such baseline"]
-        if path.exists():
-            changed = changes(read_baseline(path), now)
-            if not changed:
-                return "", False
-            head = f"{stem}: {len(changed)} changed by more than both errors, new, or gone"
-            report = [head, *lines(changed, FEW)]
-        if any(fnmatchcase(stem, pattern) for pattern in self.updated):
-            write_baseline(now, path)
-            return "\n".join([f"{path}: written", *report]), True
-        return "\n".join([*report, f"to write it: pytest --baseline-update {stem}"]), False
+    named = {ALONE: item} if isinstance(item, Estimate) else item
+    is_named = isinstance(named, Mapping) and all(isinstance(each, Estimate) for each in named.values())
+    if not (is_named or isinstance(named, Result)):
+        allowed = "a Result with errors, an Estimate, or Estimates by their names"
+        raise InputError(f"{short(item)}: cannot be a baseline; allowed: {allowed}")
+    now, report = kept_run(named), [f"{path}: there is no such baseline"]
+    if path.exists():
+        changed = changes(read_baseline(path), now)
+        if not changed:
+            return "", False
+        head = f"{path.stem}: {len(changed)} changed by more than both errors, new, or gone"
+        report = [head, *lines(changed, FEW)]
+    if any(fnmatchcase(path.stem, pattern) for pattern in updated):
+        write_baseline(now, path)
+        return "\n".join([f"{path}: written", *report]), True
+    return "\n".join([*report, f"to write it: pytest --baseline-update {path.stem}"]), False
 
 
 # --- closeness ---
@@ -150,13 +134,16 @@ def closeness(
     """
     if isinstance(reference, (str, PathLike)):
         reference = run_or_series(Path(reference))
-    rule, its = _rule(allowed), _columns(reference)
+    is_share = isinstance(allowed, (int, float)) and not isinstance(allowed, bool)
+    text = f"{100.0 * float(allowed or 0.0):.12g} %" if is_share else str(allowed)
+    rule = BOTH_ERRORS if allowed is None else tolerance("*", text)
     if isinstance(result, Result):
         if isinstance(reference, (int, float, Estimate)):
             refused = f"reference = {short(reference)}: is a number, the result a whole run"
             raise InputError(f"{refused}; allowed: numbers by names")
         numbers = result.numbers(after, until) if result.coarser is not None else {}
         mine = {name: _column(number) for name, number in numbers.items()} | recorded_columns(result)
+        its = _columns(reference)
         missing = [name for name in its if name not in mine]
         if missing and (isinstance(reference, Mapping) or len(missing) == len(its)):
             known = meant(missing[0], list(mine))
@@ -165,8 +152,7 @@ def closeness(
         names = matching(names, channels) if channels else names
     else:
         mine, column = _columns(result), _column(reference)
-        names = list(mine)
-        its = dict.fromkeys(mine, column)
+        names, its = list(mine), dict.fromkeys(mine, column)
     if rule.is_errors:
         runs = [run for run in (result, reference) if isinstance(run, Result)]
         until = min([until, *map(determined_until, runs)])
@@ -177,14 +163,6 @@ def closeness(
             "accuracy"
         )
     return sorted(close, key=lambda channel: not channel.faults)
-
-
-def _rule(allowed: float | str | None) -> Tolerance:
-    """The tolerance of a share, a text or None. Raises InputError if it is none."""
-    if allowed is None:
-        return BOTH_ERRORS
-    is_share = isinstance(allowed, (int, float)) and not isinstance(allowed, bool)
-    return tolerance("*", f"{100.0 * float(allowed):.12g} %" if is_share else str(allowed))
 
 
 def _columns(item: Any) -> dict[str, ComparedColumn]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import field, replace
 from fnmatch import fnmatchcase
 from pathlib import Path
@@ -17,7 +17,6 @@ from support_exudyn.files.toml.faults import Faults, Place
 from support_exudyn.files.toml.reading import Reader, read_value
 from support_exudyn.files.toml.text import load_toml
 from support_exudyn.files.whole_file import missing_file
-from support_exudyn.postprocessing.figures.selection import is_called
 from user_forces.values.names import nearest
 from user_forces.values.units import Hertz, Seconds
 from user_forces.values.value import InputError, Positive, Real, Value, short, value
@@ -79,8 +78,8 @@ class CompareFile(Value):
 
     def of(self, path: Path) -> MappedFile:
         """The first entry whose name or pattern fits a file."""
-        found = next((each for name, each in self.files.items() if _fits(path, name)), MappedFile())
-        return found if found.rate else replace(found, rate=self.rate)
+        entry = next((each for name, each in self.files.items() if _fits(path, name)), MappedFile())
+        return entry if entry.rate else replace(entry, rate=self.rate)
 
 
 def _fits(path: Path, name: str) -> bool:
@@ -94,11 +93,15 @@ def read_compare_file(path: Path, files: Iterable[Path]) -> CompareFile:
     Raises InputError with a line for each wrong item: file, key, value, what is allowed; OSError if it cannot
     be read.
     """
+
+    def name_alone(reader: Reader, item: Any, place: Place) -> MappedColumn | None:
+        return MappedColumn(column=item) if isinstance(item, str) else None
+
     try:
         table = load_toml(path)
     except FileNotFoundError as error:
         raise missing_file(path, "the TOML file of a comparison") from error
-    file = read_value(CompareFile, table, str(path), {MappedColumn: _name_alone})
+    file = read_value(CompareFile, table, str(path), {MappedColumn: name_alone})
     faults, compared = Faults(str(path)), list(files)
     for name, mapped in file.files.items():
         if not any(_fits(each, name) for each in compared):
@@ -109,13 +112,11 @@ def read_compare_file(path: Path, files: Iterable[Path]) -> CompareFile:
                 allowed = 'a unit such as "mm", "kN", "deg" or "m/s^2"; "1" of none'
                 faults.wrong(("files", name, "units", column), unit, allowed)
     faults.check()
-    tolerances_of(file, str(path))
+    try:
+        tolerances_of(file)
+    except InputError as error:
+        raise InputError(f"{path}: tolerances: {error}") from None
     return file
-
-
-def _name_alone(reader: Reader, item: Any, place: Place) -> MappedColumn | None:
-    """The short form of a column: its name."""
-    return MappedColumn(column=item) if isinstance(item, str) else None
 
 
 # --- tolerances ---
@@ -173,14 +174,6 @@ def read_tolerances(text: str) -> list[Tolerance]:
     return [tolerance(pattern, amount) for pattern, _, amount in parts]
 
 
-def tolerances_of(file: CompareFile, where: str = "compare.toml") -> list[Tolerance]:
-    """The tolerances of a file, in its order. Raises InputError, which names the file, if one is none."""
-    try:
-        return [tolerance(pattern, text) for pattern, text in file.tolerances.items()]
-    except InputError as error:
-        raise InputError(f"{where}: tolerances: {error}") from None
-
-
-def of_channel(tolerances: Sequence[Tolerance], channel: str) -> Tolerance | None:
-    """The first tolerance whose pattern matches a channel; None if none does."""
-    return next((each for each in tolerances if is_called(channel, each.pattern)), None)
+def tolerances_of(file: CompareFile) -> list[Tolerance]:
+    """The tolerances of a file, in its order. Raises InputError if one is none."""
+    return [tolerance(pattern, text) for pattern, text in file.tolerances.items()]

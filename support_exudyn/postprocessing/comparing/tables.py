@@ -63,26 +63,17 @@ def _cells(channel: ComparedChannel) -> Iterator[tuple[str, ...]]:
     apart = largest if math.isfinite(largest) else abs(channel.mean.value)
     shown = readable_change(channel.unit, max(abs(mean.value) for mean in channel.means[:2]), apart)
     for row in channel.rows:
-        unit = DisplayUnit(PERCENT, 1.0) if row.unit == PERCENT else shown
-        digits = 3 if row.unit == PERCENT else DIGITS
+        unit, digits = (DisplayUnit(PERCENT, 1.0), 3) if row.unit == PERCENT else (shown, DIGITS)
+        numbers = (unit.scale * value for value in (row.reference, row.other, row.difference))
+        *sides, difference = ("" if math.isnan(number) else f"{number:.{digits}g}" for number in numbers)
+        if math.isinf(row.error):
+            difference += " ± not known" if difference else ""
+        elif not math.isnan(row.error + row.difference):
+            estimate = Estimate(row.difference, row.error, row.unit)
+            difference = to_error(estimate, unit.scale, MOST_DIGITS)
         tolerance = channel.tolerance.text if channel.tolerance is not None and row.verdict else ""
         when = f", at {row.time:.6g} s" if math.isfinite(row.time) else ""
-        sides = (_number(unit.scale * side, digits) for side in (row.reference, row.other))
-        difference = _with_error(row, unit.scale, digits)
         yield row.channel, f"{row.measure}{when}", unit.name, *sides, difference, tolerance, row.verdict or ""
-
-
-def _number(value: float, digits: int) -> str:
-    return "" if math.isnan(value) else f"{value:.{digits}g}"
-
-
-def _with_error(row: ComparedRow, scale: float, digits: int) -> str:
-    """A difference in a unit, with its error if that is known."""
-    if math.isnan(row.difference) or math.isnan(row.error):
-        return _number(scale * row.difference, digits)
-    if math.isinf(row.error):
-        return f"{_number(scale * row.difference, digits)} ± not known"
-    return to_error(Estimate(row.difference, row.error, row.unit), scale, MOST_DIGITS)
 
 
 # --- notes ---

@@ -36,6 +36,7 @@ from user_forces.values.units import Hertz, Metres, Pascals, Radians
 from user_forces.values.value import InputError, NonNegative, Positive, Value, Whole, value
 
 RECORDS = 20  # in a period of a filter's corner frequency, at least
+CLOSE = 1e-6  # share of a period by which records that are evenly spaced may be off
 
 
 @value
@@ -52,14 +53,19 @@ class LowPass(Value):
     order: Annotated[Whole, Field(ge=1, le=8)] = 2
     corner: Hertz[Positive]
 
-    @property
-    def longest_period(self) -> float:
-        """Longest time between records [s] for this filter.
+    def check(self, period: float) -> None:
+        """Raise InputError if records are too far apart for this filter; period: between them [s].
 
-        A wave at the corner frequency loses 0.8 % of its height by the straight lines between such records,
+        A wave at the corner frequency loses 0.8 % of its height by straight lines between `RECORDS` records,
         and 1.6 % where it is a derivative by them.
         """
-        return 1.0 / (RECORDS * self.corner)
+        longest = 1.0 / (RECORDS * self.corner)
+        if period > longest * (1.0 + CLOSE):
+            raise InputError(
+                f"low_pass.corner = {self.corner:g} Hz: the records are {period:g} s apart, too far for it; "
+                f"allowed: runs with record_period <= {longest:g} s, or a corner up to "
+                f"{self.corner * longest / period:g} Hz"
+            )
 
     def filtered(self, values: Series, period: float) -> Series:
         """The filter's output at the records (n, m), exact for an input (n, m) with straight lines between.
@@ -174,29 +180,26 @@ class PressureGauge(Instrument):
 
 @value
 class ExtensionSensor(Instrument):
-    """A sensor of a column's extension: its length less that at which the sensor shows 0.
+    """A sensor of a column's extension: its length less that in the machine's start posture.
 
     Arguments:
         column: name of an actuator.
-        zero_length: distance of its ends at which it shows 0 [m]; None: that in the machine's start posture.
         rate, low_pass, noise [m], resolution [m]: see `Instrument`.
     """
 
     UNIT: ClassVar[str] = "m"
 
     column: str
-    zero_length: Metres[NonNegative] | None = None
     noise: Metres[NonNegative] = 0.0
     resolution: Metres[NonNegative] = 0.0
 
     def signals(self, result: Result) -> Series:
         """The extension (n, 1) [m]."""
-        scenario, zero = result.scenario, self.zero_length
+        scenario = result.scenario
         whole, _ = column_of(scenario, self.column)
-        if zero is None:
-            ends = machine_of(scenario).actuators
-            parts = [self.column] if self.column in ends else list(scenario.space.parts_of_actuator(whole))
-            zero = float(np.mean([ends[part].start_length for part in parts]))
+        ends = machine_of(scenario).actuators
+        parts = [self.column] if self.column in ends else list(scenario.space.parts_of_actuator(whole))
+        zero = float(np.mean([ends[part].start_length for part in parts]))
         return (result.recorded(f"{self.column}.length", "a sensor of extension shows it") - zero)[:, None]
 
 

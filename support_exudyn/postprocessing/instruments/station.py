@@ -18,6 +18,7 @@ from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.postprocessing.export.whole_set import check_is_no_run
 from support_exudyn.postprocessing.instruments.sensors import (
+    CLOSE,
     ExtensionSensor,
     Inclinometer,
     Instrument,
@@ -33,7 +34,6 @@ BASE = "base"  # what mines call the ground of the model
 WRITTEN = {"Pa": ("MPa", 1e-6), "m": ("mm", 1e3), "rad": ("deg", 180.0 / math.pi)}
 DIGITS = 10  # of a number: far more than instruments have
 DECIMALS = 7  # of MPa, mm, deg: smaller is what rounding of a run leaves of nothing
-CLOSE = 1e-6  # share of a period by which records that are evenly spaced may be off
 
 
 @value
@@ -86,21 +86,16 @@ def _samples(instrument: Instrument, result: Result, random: np.random.Generator
             "allowed: runs with one record_period"
         )
     time = time[: time.size - uneven.size]
-    low_pass = instrument.low_pass
-    if low_pass is not None and period > low_pass.longest_period * (1.0 + CLOSE):
-        raise InputError(
-            f"low_pass.corner = {low_pass.corner:g} Hz: the records are {period:g} s apart, too far for it; "
-            f"allowed: runs with record_period <= {low_pass.longest_period:g} s, or a corner up to "
-            f"{low_pass.corner * low_pass.longest_period / period:g} Hz"
-        )
+    if instrument.low_pass is not None:
+        instrument.low_pass.check(period)
     if instrument.rate * period > 1.0 + CLOSE:
         raise InputError(
             f"rate = {instrument.rate:g} Hz: the records are {period:g} s apart; allowed: up to "
             f"{1.0 / period:g} Hz, or runs with a shorter record_period"
         )
     signals = instrument.signals(result)[: len(time)]
-    if low_pass is not None:
-        signals = low_pass.filtered(signals, period)
+    if instrument.low_pass is not None:
+        signals = instrument.low_pass.filtered(signals, period)
     count = int(np.floor((time[-1] - time[0]) * instrument.rate * (1.0 + 1e-12))) + 1
     when = time[0] + np.arange(count) / instrument.rate
     values = np.interp(when, time, instrument.reading(signals))
@@ -138,15 +133,7 @@ def usual_station(scenario: Scenario) -> tuple[MeasuringStation, dict[str, Input
 
 
 def read_station(path: str | Path) -> MeasuringStation:
-    """The station of a TOML file.
-
-        clock_offset_s = 0.4
-        [instruments."front_column.pressure"]
-        type = "PressureGauge"
-        column = "front_column"
-        bore_mm = 250
-        cylinders = 2
-        low_pass = { order = 2, corner_Hz = 5 }
+    """The station of a TOML file; `looking_at_runs.md` has one.
 
     Raises InputError with a line for each thing that is wrong: file, key, value and what is allowed; OSError if
     the file cannot be read.

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
 
 from support_exudyn import InputError
 from support_exudyn.postprocessing.comparing.baselines import (
@@ -30,7 +27,6 @@ WHOLE = KeptRun(
     curves={"tip.x": ComparedColumn("m", TIMES, np.array([1.0, math.nan, 2.0]), ERRORS)},
     horizon=0.15,
 )
-UNCHECKED = [HealthCheck.function_scoped_fixture]
 
 
 def test_what_is_read_is_what_was_written(tmp_path: Path) -> None:
@@ -43,28 +39,15 @@ def test_what_is_read_is_what_was_written(tmp_path: Path) -> None:
     first = path.read_bytes()
     write_baseline(found, path)
     assert path.read_bytes() == first
-    assert json.loads(first)["horizon_s"] == 0.15
-
-
-@given(value=st.floats(width=64), error=st.floats(0.0, 1e300) | st.just(math.inf), name=st.text(max_size=8))
-@settings(suppress_health_check=UNCHECKED)
-def test_any_number_is_kept(value: float, error: float, name: str, tmp_path: Path) -> None:
-    write_baseline(KeptRun({name: Estimate(value, error, name)}, {}), tmp_path / "one.json")
-    kept = read_baseline(tmp_path / "one.json").numbers[name]
-    assert kept.value == value or (math.isnan(kept.value) and not math.isfinite(value))
-    assert kept.error == pytest.approx(error, rel=0.01)
 
 
 @pytest.mark.parametrize(
     "damage",
     [
         lambda whole: whole[:-100],
-        lambda whole: whole.replace(b"0.3333333333333333 ", b"a third "),
-        lambda whole: whole.replace(b'"unit": "m"', b'"unity": "m"'),
         lambda whole: whole.replace(b"baseline 2", b"baseline 1"),
         lambda whole: whole.replace(b'"values": "', b'"values": "1 '),
         lambda _: b"[]",
-        lambda _: b"\0",
     ],
 )
 def test_a_damaged_file_is_refused_in_a_sentence(damage: Callable[[bytes], bytes], tmp_path: Path) -> None:

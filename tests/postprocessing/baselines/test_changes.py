@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from support_exudyn import Result, Scenario, simple_scenario, simulate
+from support_exudyn import Result, Scenario, simulate
 from support_exudyn.postprocessing.comparing.baselines import KeptRun, RunChange, changes, kept_run
 from support_exudyn.postprocessing.comparing.compared_channel import ComparedColumn
 from support_exudyn.postprocessing.pytest_plugin import SimulateCached
@@ -62,11 +62,9 @@ def of_body(name: str, *fields: str) -> Scenario:
 
 PLANTED: Mapping[str, Callable[[], Scenario]] = {
     "contact stiffness": lambda: rocker(stiffness_N_per_m_to_n=FACTOR * 1e10),
-    "restitution": lambda: rocker(restitution=FACTOR * 0.8),
     "friction": lambda: rocker(friction=FACTOR * 0.1),
     "gravity": lambda: replace(rocker(), gravity=(0.0, -FACTOR * 9.81)),
     "mass": lambda: of_body("rocker", "mass"),
-    "drive": lambda: replace(rocker(), drives={"crank": replace(rocker().drives["crank"], rate=FACTOR * 60.0)}),
 }
 
 
@@ -102,12 +100,7 @@ def renamed(one: Any) -> Any:
 def test_a_change_of_the_records_is_caught(
     change: Callable[[Any], Any], expected: set[tuple[str, str, str]], run: Result, kept: KeptRun
 ) -> None:
-    other = kept_run(whole(run, change))
-    found = changes(kept, other)
-    assert told(found) == expected
-    back = {"gone": "new", "new": "gone", "changed": "changed"}
-    assert {what for _, what, _ in told(changes(other, kept))} == {what for _, what, _ in expected}
-    assert {back[kind] for kind, _, _ in told(changes(other, kept))} == {kind for kind, _, _ in expected}
+    assert told(changes(kept, kept_run(whole(run, change)))) == expected
 
 
 def test_other_units_numbers_and_keys_are_caught(kept: KeptRun) -> None:
@@ -132,7 +125,7 @@ def perturbed(scenario: Scenario, ulps: float) -> Scenario:
     return replace(scenario, gravity=(x, y * (1.0 + ulps * 2.0**-52)))
 
 
-@pytest.mark.parametrize(("ulps", "accuracy"), [(1.0, None), (20.0, None), (0.0, 8e-6), (0.0, 2e-5)])
+@pytest.mark.parametrize(("ulps", "accuracy"), [(20.0, None), (0.0, 2e-5)])
 def test_rounding_and_other_steps_are_no_change(
     ulps: float, accuracy: float | None, run: Result, kept: KeptRun
 ) -> None:
@@ -142,17 +135,6 @@ def test_rounding_and_other_steps_are_no_change(
     found = changes(kept, kept_run(other))  # errors cover 98 of 100 numbers, here of 50
     assert len(found) <= 2
     assert all(one.ratio < 2.0 for one in found)
-
-
-def test_ideal_machines_are_quiet_too() -> None:
-    rise = simple_scenario(
-        "reference", duration_s=1, record_period_s=0.02, accuracy="reference",
-        drive={"mode": 2, "start_s": 0.2, "end_s": 0.8},
-    )  # fmt: skip
-    kept = kept_run(simulate(rise))
-    assert changes(kept, kept_run(simulate(perturbed(rise, 1.0)))) == []
-    heavier = replace(rise, gravity=(0.0, (1.0 + 1e-8) * rise.gravity[1]))
-    assert changes(kept, kept_run(simulate(heavier)))
 
 
 def test_chaos_is_compared_up_to_its_horizon() -> None:

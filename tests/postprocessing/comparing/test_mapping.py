@@ -10,20 +10,15 @@ import pytest
 
 from support_exudyn import compare_files
 from support_exudyn.postprocessing.comparing.mapping import (
-    MappedColumn,
-    MappedFile,
-    of_channel,
     read_compare_file,
     read_tolerances,
     tolerance,
-    tolerances_of,
 )
 from user_forces import InputError
 
 WHOLE = """
 [files."seen*.csv"]
 shift_ms = 12
-analysis = "Last_Run"
 
 [files."seen*.csv".columns]
 "tip.x" = "Canopy X"
@@ -31,33 +26,19 @@ analysis = "Last_Run"
 
 [files."seen*.csv".units]
 "Canopy*" = "mm"
-time = "s"
+t = "s"
 "Load*" = "kN"
 
 [tolerances]
 "tip.*" = "0.1 mm"
 "pin.*" = "2 %"
 """
-OF_CSV = WHOLE.replace('analysis = "Last_Run"', "").replace("time =", "t =")
 
 
 def written(folder: Path, text: str, name: str = "compare.toml") -> Path:
     path = folder / name
     path.write_text(text, encoding="utf-8")
     return path
-
-
-def test_a_whole_file_is_read(tmp_path: Path) -> None:
-    seen = tmp_path / "seen_1.csv"
-    found = read_compare_file(written(tmp_path, WHOLE), [seen, Path("rise.h5")])
-    columns = {
-        "tip.x": MappedColumn(column="Canopy X"),
-        "pin.A.force": MappedColumn(column="Load cell", sign=-1, offset=0.5),
-    }
-    units = {"Canopy*": "mm", "time": "s", "Load*": "kN"}
-    assert found.of(seen) == MappedFile(columns=columns, units=units, shift=0.012, analysis="Last_Run")
-    assert found.of(Path("rise.h5")) == MappedFile()
-    assert [(one.pattern, one.text) for one in tolerances_of(found)] == [("tip.*", "0.1 mm"), ("pin.*", "2 %")]
 
 
 @pytest.mark.parametrize(
@@ -114,8 +95,8 @@ def files(tmp_path: Path) -> tuple[Path, Path]:
 def test_every_part_of_a_mapping_counts(
     replaced: str, by: str, channel: str, apart: float, files: tuple[Path, Path], tmp_path: Path
 ) -> None:
-    assert replaced in OF_CSV
-    found = compare_files(*files, mapping=written(tmp_path, OF_CSV.replace(replaced, by, 1)))
+    assert replaced in WHOLE
+    found = compare_files(*files, mapping=written(tmp_path, WHOLE.replace(replaced, by, 1)))
     one = found.pairs[0].channels[channel]
     assert one.largest.value == pytest.approx(apart, rel=0.02, abs=1e-5)
     assert one.verdict == ("differs" if apart else "differs within tolerance")
@@ -152,10 +133,8 @@ def test_a_column_that_is_missing_or_without_unit(
 def test_what_is_allowed_is_in_si(text: str, channel: str, unit: str, extent: float, allowed: float) -> None:
     # the first pattern that matches counts
     several = read_tolerances(f"b.*=1N, {channel} = {text},{channel}=7 s")
-    rule = of_channel(several, channel)
-    assert rule == several[1]
-    assert rule.in_si(channel, unit, extent) == pytest.approx(allowed, rel=1e-15)
-    assert of_channel(several, "c") is None
+    assert [each.pattern for each in several] == ["b.*", channel, channel]
+    assert several[1].in_si(channel, unit, extent) == pytest.approx(allowed, rel=1e-15)
 
 
 @pytest.mark.parametrize(

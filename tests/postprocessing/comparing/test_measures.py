@@ -51,9 +51,7 @@ def test_a_sine_that_is_larger_and_lags(factor: float, lag: float) -> None:
 
 
 @given(reference=curves, other=curves, gaps=steps)
-def test_integrals_are_trapezoids_and_shares_have_bounds(
-    reference: np.ndarray, other: np.ndarray, gaps: np.ndarray
-) -> None:
+def test_integrals_are_trapezoids(reference: np.ndarray, other: np.ndarray, gaps: np.ndarray) -> None:
     time = np.cumsum(gaps)
     found = curve_measures(time, reference, other)
 
@@ -68,12 +66,6 @@ def test_integrals_are_trapezoids_and_shares_have_bounds(
         assert found.r_squared == pytest.approx(1.0 - found.rms**2 / spread, rel=1e-6)
     where = np.abs(other - reference).argmax()
     assert (found.largest, found.largest_time) == ((other - reference)[where], time[where])
-    bounds = (
-        (found.phase_error, 0.0, 1.0),
-        (found.r_squared, -np.inf, 1.0),
-        (found.magnitude_error, -1.0, np.inf),
-    )
-    assert all(least <= share <= most for share, least, most in bounds if not math.isnan(share))
 
 
 OF_RANGE = {"rms_of_range", "r_squared"}
@@ -111,7 +103,7 @@ def test_what_has_no_value_is_nan(
         (lambda: curve_measures(FINE[:3], FINE[:3], FINE[:2]), r"shapes \[\(3,\), \(3,\), \(2,\)\]"),
         (lambda: curve_measures(np.zeros(2), np.zeros(2), np.zeros(2)), "do not increase"),
         (lambda: on_common_times(FINE, FINE, FINE + 5.0, FINE), "s: none lies where both"),
-        (lambda: on_common_times(FINE, FINE, FINE, FINE, 2.0, 3.0), "none lies between 2 and 3 s"),
+        (lambda: on_common_times(FINE, FINE, FINE, FINE, 2.0, 3.0), "none lies .*between 2 and 3 s"),
         (lambda: on_common_times(FINE, FINE, FINE[:0], FINE[:0]), r"\(none\)"),
     ],
 )
@@ -159,11 +151,6 @@ def test_the_error_of_interpolation(
     found, wrong = interpolated(np.arange(6.0), np.array(values, dtype=float), np.array(at))
     np.testing.assert_allclose(found, expected)
     np.testing.assert_allclose(wrong, error)
-
-
-def test_of_a_coarse_curve_without_a_time_there_the_finer_ones_count() -> None:
-    found = on_common_times(np.array([0.0, 1.0]), np.array([0.0, 2.0]), FINE[300:400], FINE[300:400])
-    np.testing.assert_allclose(found.reference, 2.0 * found.other)
 
 
 # --- statistics ---
@@ -231,11 +218,10 @@ def test_a_course_that_both_follow_does_not_hide_a_difference(apart: float, nois
 )
 def test_intervals_hold_the_truth_as_often_as_measured(count: int, memory: float, least: float) -> None:
     random = np.random.default_rng(count)
-    found = [
-        compared_statistics(process(count, memory, random), process(count, memory, random)) for _ in range(200)
-    ]
+    drawn = ([process(count, memory, random) for _ in range(2)] for _ in range(200))
+    found = [compared_statistics(*pair) for pair in drawn]
     for name in STATISTICS:
-        assert sum(bool(one[name].equal) for one in found) >= least / 100.0 * len(found), name
+        assert sum(bool(each[name].equal) for each in found) >= least / 100.0 * len(found), name
 
 
 # --- the shift in time ---

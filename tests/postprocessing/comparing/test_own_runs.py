@@ -63,7 +63,7 @@ def of_numbers(first: Result, second: Result) -> dict[str, float]:
 
 
 def told_equal(first: Result, second: Result) -> tuple[int, int]:
-    """How many numbers and curves were compared; asserts that none is told different."""
+    """How many numbers and curves were compared; asserts that none differs."""
     numbers = of_numbers(first, second)
     assert [name for name, times in numbers.items() if times > DOUBT] == []
     curves = list(point_by_point(first, second, min(first.horizon, second.horizon)))
