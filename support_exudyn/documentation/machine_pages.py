@@ -39,25 +39,15 @@ def machines_page(pictures: Path) -> str:
         data, picture = shipped(name), f"machine_{name}.png"
         machine_drawing(Scenario(machine=data.machine, duration=1.0)).savefig(pictures / picture, dpi=DPI)
         sources = "\n".join(f"- {what.replace('_', ' ')}: {source}" for what, source in data.sources.items())
-        parts += [f"## {name}", *_comment(name), f"![{name}]({pictures.name}/{picture})", sources]
+        parts += [f"## {name}", _comment(name), f"![{name}]({pictures.name}/{picture})", sources]
     return "\n\n".join(parts) + "\n"
 
 
-def _comment(name: str) -> list[str]:
-    """The comment at the top of a machine's file: paragraphs, lists, and a sketch in letters if it has one."""
+def _comment(name: str) -> str:
+    """The comment at the top of a machine's file, as it stands there."""
     text = (Path(shipped_files).parent / f"{name}.toml").read_text(encoding="utf-8")
     lines = takewhile(lambda line: line.startswith("#"), text.splitlines())
-    found = []
-    for block in "\n".join(line.removeprefix("#").removeprefix(" ") for line in lines).split("\n\n"):
-        listed = [line.startswith(("- ", "  ")) for line in block.splitlines()]
-        if 2 * f"\n{block}".count("\n  ") > len(listed):  # most lines of a sketch are indented
-            found.append(f"```text\n{block}\n```")
-            continue
-        parts: list[str] = []  # with an empty line before and after a list
-        for line, is_item, was_item in zip(block.splitlines(), listed, listed[:1] + listed, strict=False):
-            parts += ["", line] if is_item != was_item else [line]
-        found.append("\n".join(parts))
-    return found
+    return "\n".join(["```text", *(line.removeprefix("#").removeprefix(" ") for line in lines), "```"])
 
 
 def channels_page() -> str:

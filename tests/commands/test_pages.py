@@ -16,7 +16,7 @@ from support_exudyn.commands.app import COMMANDS, app
 from support_exudyn.files.scenarios.scenario_file import read_scenario
 from support_exudyn.postprocessing.comparing.mapping import read_compare_file
 from support_exudyn.sweeps import read_sweep
-from tests.pages import README, ROOT, Listing, links, listings, named, pages
+from tests.pages import ROOT, Listing, links, listings, named, pages
 
 SHOWN = [one for page in pages() for one in listings(page)]
 A_RISE = next(listings(ROOT / "support_exudyn" / "scenario" / "in_python.md"))
@@ -35,12 +35,6 @@ def told(one: Listing) -> str:
 @pytest.mark.parametrize("page", pages(), ids=named)
 def test_links_and_pictures_are_there(page: Path) -> None:
     assert [link for link in links(page) if not (page.parent / link).exists()] == []
-
-
-def test_every_kind_of_listing_is_tried() -> None:
-    # sh: the README's own support, see test_tutorial.py
-    assert {one.kind for one in SHOWN} == {"python", "toml", "sh"}
-    assert {one.page for one in of_kind("sh")} == {README}
 
 
 def extends(one: Listing) -> bool:

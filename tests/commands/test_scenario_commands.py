@@ -8,48 +8,28 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from studies.common.paper_machine import JACK, clearance_joint, oil_columns
+from studies.common.paper_machine import clearance_joint, oil_columns
 from support_exudyn import (
     CubicStep,
-    IdealPin,
-    OwnBody,
     Result,
-    Roof,
     Scenario,
     Steady,
-    TableDrive,
-    cylinders_and_rods,
     ravn_slider_crank,
     reference_support,
     simulate,
 )
 from support_exudyn.__main__ import main
-from user_forces import CubicCoulomb
 
 STROKE = CubicStep(stroke=0.005, start=0.01, end=0.04)
 BASE = Scenario(
     machine=reference_support(), drive=STROKE, duration=0.05, pins={"rear_base": clearance_joint(1.5, 0.25)}
 )
-POINTS = TableDrive(times=(0.0, 0.015, 0.035), extensions=(0.0, 0.005, 0.001))
-ROOF = Roof(
-    body="canopy",
-    point=reference_support().linkage().bodies["canopy"].centre,
-    descent=CubicStep(stroke=0.003, start=0.0, end=0.05),
-    stiffness=1e7,
-)
-RUBBING = IdealPin(friction=CubicCoulomb(sliding_coefficient=0.1), radius=0.06)
 SCENARIOS = {
     "exudyn": BASE,
     "compiled": replace(BASE, machine=reference_support(), formulation="compiled", actuators=oil_columns()),
     "space": replace(BASE, dimensions=3, duration=0.02, record_period=0.005),
     "accuracy": replace(BASE, accuracy="draft", channels=("tip.*",)),
     "oil": replace(BASE, actuators=oil_columns(), start="settled"),
-    "two bodies": replace(BASE, actuators=cylinders_and_rods(), pins={"front_base": RUBBING}),
-    "tail beam": replace(BASE, parts={"tail_beam": OwnBody(jack=JACK)}),
-    "load": replace(BASE, loads={"roof": ROOF}, actuators=oil_columns()),
-    "table": replace(BASE, drive=POINTS),
-    "jumps": replace(BASE, drive=replace(POINTS, between="linear")),
-    "apart": replace(BASE, actuators=oil_columns(), drives={"rear_column": POINTS}),
     "crank": Scenario(
         machine=ravn_slider_crank(), drive=Steady(rate=500.0), duration=0.01, step=1e-5, record_period=1e-4
     ),
@@ -67,12 +47,7 @@ def same(one: Result, other: Result) -> None:
         same(one.coarser, other.coarser)
 
 
-LONGER = ("apart", "jumps", "load", "tail beam")
-
-
-@pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=[pytest.mark.slow] * (name in LONGER)) for name in SCENARIOS]
-)
+@pytest.mark.parametrize("name", SCENARIOS)
 def test_the_scenario_of_a_run_makes_it_again_to_the_bit(name: str, tmp_path: Path) -> None:
     result = simulate(SCENARIOS[name])
     result.save(tmp_path / "a.h5")

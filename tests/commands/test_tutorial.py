@@ -85,12 +85,6 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return where
 
 
-def test_every_command_of_the_page_is_tried() -> None:
-    tried = [words[1] for words in commands() if words[0] == "support-exudyn"]
-    assert {"init", "check", "run", "compare", "sweep", "chart", "show", "plot", "render"} <= set(tried)
-    assert re.findall(r"```(?!sh\n)\w+", section()) == []
-
-
 @pytest.mark.slow  # the runs of the page take half a minute
 def test_the_answer_is_that_of_the_page(folder: Path) -> None:
     text = " ".join(section().split())

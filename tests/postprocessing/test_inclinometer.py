@@ -127,15 +127,3 @@ def test_in_space_a_constant_rate_is_felt_as_its_closed_form() -> None:
     start = SPACE.space.bodies["canopy"].angle
     assert start == 0.0  # its axes are those of the start
     np.testing.assert_allclose(specific_force(run, "canopy", "tip")[1:-1], exact[1:-1], atol=1e-6)
-
-
-def test_a_symmetric_machine_in_space_reads_as_in_the_plane() -> None:
-    drive = CubicStep(stroke=0.02, start=0.0, end=0.1)
-    plane = Scenario(machine=machine("reference"), drive=drive, duration=0.1, step=1e-3)
-    both = [
-        simulate(plane),
-        simulate(Scenario(machine=plane.machine, drive=drive, duration=0.1, step=1e-3, dimensions=3)),
-    ]
-    first, second = (tilt(run, body="canopy", at="tip") for run in both)
-    np.testing.assert_allclose(second, first, atol=1e-6)
-    np.testing.assert_allclose(tilt(both[1], body="canopy", direction="sideways"), 0.0, atol=1e-7)

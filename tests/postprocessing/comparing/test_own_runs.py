@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import replace
 from functools import cache
 from itertools import combinations
@@ -12,7 +11,8 @@ import numpy as np
 import pytest
 
 from support_exudyn import CubicStep, Result, Scenario, machine, simple_scenario, simulate
-from support_exudyn.postprocessing.comparing.compared_file import curve_errors
+from support_exudyn.postprocessing.comparing.compared_channel import compared
+from support_exudyn.postprocessing.comparing.compared_file import curve_errors, recorded_columns
 from support_exudyn.postprocessing.comparing.measures import compared_statistics
 from tests.cases.run_cases import FORCE, loose_support
 
@@ -39,17 +39,14 @@ def parted() -> tuple[Result, Result]:
     return simulate(five_pins(), accuracy="draft"), simulate(five_pins(), accuracy=FINE)
 
 
-def point_by_point(first: Result, second: Result, end: float) -> Iterator[tuple[float, str, float]]:
-    """By how many times both errors channels differ up to a time, at worst, and when that is."""
-    names = [name for name in first.channels if name in second.channels and name != "time"]
-    mine, its = curve_errors(first, names), curve_errors(second, names)
-    before = first.time < end
-    for name in names:
-        error = (mine[name] + its[name])[before]
-        apart = np.abs(second[name] - first[name])[before]
-        assert not np.isnan(error).any()
-        times = np.divide(apart, error, out=np.where(apart > 0.0, np.inf, 0.0), where=error > 0.0)
-        yield float(times.max()), name, float(first.time[times.argmax()])
+def over_errors(first: Result, second: Result) -> dict[str, float]:
+    """By how many times both errors channels differ before the horizon, at worst, by name."""
+    mine, its = (recorded_columns(run) for run in (first, second))
+    end = min(first.horizon, second.horizon)
+    names = [name for name in mine if name in its]
+    apart = {name: compared(name, mine[name], its[name], horizon=end).over_errors for name in names}
+    assert not np.isnan(list(apart.values())).any()
+    return apart
 
 
 def of_numbers(first: Result, second: Result) -> dict[str, float]:
@@ -62,13 +59,11 @@ def of_numbers(first: Result, second: Result) -> dict[str, float]:
     }
 
 
-def told_equal(first: Result, second: Result) -> tuple[int, int]:
-    """How many numbers and curves were compared; asserts that none differs."""
-    numbers = of_numbers(first, second)
-    assert [name for name, times in numbers.items() if times > DOUBT] == []
-    curves = list(point_by_point(first, second, min(first.horizon, second.horizon)))
-    assert [one for one in curves if one[0] > DOUBT] == []
-    return len(numbers), len(curves)
+def check_equal(first: Result, second: Result) -> None:
+    """Assert that no number and no curve differs."""
+    for apart in (of_numbers(first, second), over_errors(first, second)):
+        assert apart
+        assert {name: times for name, times in apart.items() if times > DOUBT} == {}
 
 
 def drawn(number: int) -> Scenario:
@@ -88,7 +83,7 @@ def drawn(number: int) -> Scenario:
 def test_accuracies_of_drawn_scenes_are_told_equal(number: int) -> None:
     runs = [simulate(drawn(number), accuracy=accuracy) for accuracy in ("draft", FINE, "reference")]
     for first, second in combinations(runs, 2):
-        assert min(told_equal(first, second)) > 0
+        check_equal(first, second)
 
 
 @pytest.mark.xfail(
@@ -109,7 +104,7 @@ def test_five_pins_are_equal_up_to_the_horizon_and_differ_after_it() -> None:
     first, second = parted()
     end = min(first.horizon, second.horizon)
     assert end < 0.8 * first.time[-1]  # rounding moves it
-    told_equal(first, second)
+    check_equal(first, second)
     forces = [name for name in first.channels if name.endswith(".force")]
     after = first.time > end
     # beyond the horizon they are not the same point by point
@@ -120,8 +115,7 @@ def test_five_pins_are_equal_up_to_the_horizon_and_differ_after_it() -> None:
 def test_a_clearance_that_is_larger_by_a_thousandth_is_told() -> None:
     first, _ = parted()
     other = simulate(five_pins(1.001), accuracy=FINE)
-    worst = max(point_by_point(first, other, min(first.horizon, other.horizon)))
-    assert worst[0] > 100.0 * DOUBT
+    assert max(over_errors(first, other).values()) > 100.0 * DOUBT
 
 
 def test_errors_cover_what_lies_beyond_the_horizon() -> None:
