@@ -57,9 +57,9 @@ def compare(
         from support_exudyn.postprocessing.comparing.files_compared import compare_files
 
         files, channels = files_and_channels([reference, *others])
-        for path in files:
-            if path.suffix.lower() == ".toml":
-                raise InputError(f"{path}: is no file that is compared; allowed: --map {path}")
+        for file in files:
+            if file.suffix.lower() == ".toml":
+                raise InputError(f"{file}: is no file that is compared; allowed: --map {file}")
         if len(files) < FEWEST:
             rest = f"; {channels[0]} is no file that is there, so it is taken for a channel" if channels else ""
             raise InputError(
