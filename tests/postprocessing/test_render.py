@@ -204,15 +204,18 @@ def test_the_command_writes_beside_the_run(
     bouncing: Result, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path = bouncing.save(tmp_path / "with_clearance.h5")
-    assert main(["render", str(path), "--size", "320x180", "--until", "0.04"]) == 0
+    frames = tmp_path / "with_clearance_frames"
+    frames.mkdir()
+    Image.new("RGB", (2, 2)).save(frames / "frame_0099.png")  # of another program
+    for until in ("0.08", "0.04"):
+        assert main(["render", str(path), "--size", "320x180", "--until", until]) == 0
     assert sorted(path.name for path in tmp_path.iterdir()) == [
         "with_clearance.gif",
         "with_clearance.h5",
         "with_clearance_frames",
     ]
-    assert sorted(path.name for path in (tmp_path / "with_clearance_frames").iterdir()) == [
-        *("frame_0000.png", "frame_0001.png")
-    ]
+    names = ["frame_0000.png", "frame_0001.png", "frame_0099.png"]
+    assert sorted(path.name for path in frames.iterdir()) == names
     assert "2 frames" in capsys.readouterr().out
 
 

@@ -24,7 +24,7 @@ from user_forces.values.value import InputError
 
 MESHES = Sampling(frames_per_second=25.0)
 COMPRESSION: dict[str, Any] = {"compression": "gzip", "compression_opts": 4, "shuffle": True}
-STEP = re.compile(r"(machine|pins)(\.pvd|_\d{5,}\.vtu)")  # files of an earlier export
+STEP = re.compile(r'file="((?:machine|pins)_\d{5,}\.vtu)"')  # in the index of an earlier export
 
 
 def to_xdmf(
@@ -139,7 +139,10 @@ def to_vtu(
     steps = {mesh.name: [f"{mesh.name}_{step:05d}.vtu" for step in range(len(records))] for mesh in series}
     files = ["names.csv", *(name for of_mesh in steps.values() for name in of_mesh)]
     indexes = [f"{mesh.name}.pvd" for mesh in series]
-    stale = [path.name for path in folder.glob("*") if STEP.fullmatch(path.name)]
+    stale = []  # files of others that are called alike, which no index of ours names, stay
+    for index in (folder / "machine.pvd", folder / "pins.pvd"):
+        if index.is_file() and (named := STEP.findall(index.read_text(encoding="utf-8", errors="replace"))):
+            stale += [index.name, *named]
     with whole_set(folder, [*files, *indexes], stale) as temporary:
         for step, record in enumerate(records):
             for mesh in series:

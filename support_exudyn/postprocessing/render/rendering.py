@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 from PIL import Image
+from PIL.PngImagePlugin import PngInfo
 
 from support_exudyn.files.whole_file import whole_file
 from support_exudyn.postprocessing.export.whole_set import whole_set
@@ -28,6 +29,7 @@ RATE = 25.0
 FRAMES_SHARE = 0.85  # of the time that is spent before the movie
 NAME, FRAME = "frame_{:04d}.png", re.compile(r"frame_\d{4,}\.png")
 QUICKLY = 3  # compression of PNG
+MAKER = "support_exudyn"  # stands in every frame, so that no picture of another program is removed
 
 
 @dataclass(frozen=True)
@@ -88,12 +90,14 @@ def render(
         target = beside if movie_path is None else Path(movie_path)
     show = _Show(result, size or (OF_GIF if movie == "gif" else SIZE), pin, shown)
     names = [NAME.format(n) for n in range(shown.times.size)]
-    earlier = [old.name for old in folder.glob("*") if FRAME.fullmatch(old.name)]
+    earlier = [old.name for old in folder.glob("*") if FRAME.fullmatch(old.name) and _is_ours(old)]
     share = FRAMES_SHARE if target else 1.0
     with whole_set(folder, names, earlier) as made:
         paths = [made / name for name in names]
         for n, path in enumerate(paths):
-            Image.fromarray(show.frame(n)).save(path, format="PNG", compress_level=QUICKLY)
+            maker = PngInfo()
+            maker.add_text("Software", MAKER)
+            Image.fromarray(show.frame(n)).save(path, format="PNG", compress_level=QUICKLY, pnginfo=maker)
             progress(share * (n + 1) / len(paths))
         if target is not None:
             with whole_file(target) as temporary:
@@ -139,3 +143,12 @@ class _Show:
         if self._traced is None or np.abs(where - self._traced[0]).max() > SEEN:
             self._traced = where, self._stage.image(self._scene.places(record))
         return self._painter.frame(self._traced[1], number)
+
+
+def _is_ours(path: Path) -> bool:
+    """Whether a frame says that this program has made it."""
+    try:
+        with Image.open(path, formats=["PNG"]) as opened:
+            return opened.info.get("Software") == MAKER
+    except (OSError, ValueError, SyntaxError):
+        return False
