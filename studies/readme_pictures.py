@@ -70,12 +70,12 @@ def map_step_stiffness(workers: int) -> Figure:
     return extremes_figures.figures(list(zip(found, verdicts, strict=True)))["map_step_stiffness"]
 
 
-def drawn(figure: Callable[[int], Figure]) -> Callable[[int, Path], None]:
+def drawn(figure: Callable[[int], Figure]) -> Callable[[int, Path], object]:
     """The function that writes a figure of the runs."""
     return lambda workers, path: style.save(figure(workers), path.parent, path.stem, pdf=False)
 
 
-PICTURES: dict[str, Callable[[int, Path], None]] = {  # with how many processes, into which file
+PICTURES: dict[str, Callable[[int, Path], object]] = {  # with how many processes, into which file
     "machine.png": machine,
     "rise.gif": movie,
     "pin_force.png": drawn(lambda n: influence_figures.influence_figures(paper(n))["fig5_pin_force"]),

@@ -115,7 +115,9 @@ def stiffnesses(claim: Claim) -> tuple[bool, str]:
 
 def _claim(judge: dict[str, Any] | None = None, stiffness_mm: tuple[float, ...] = (), **row: str) -> Claim:
     """A row of the file, with tuples in place of lists."""
-    given = {key: tuple(value) if isinstance(value, list) else value for key, value in (judge or {}).items()}
+    given: dict[str, Any] = {
+        key: tuple(value) if isinstance(value, list) else value for key, value in (judge or {}).items()
+    }
     return Claim(judge=Judge(**given) if judge else None, stiffness_mm=tuple(stiffness_mm), **row)
 
 

@@ -114,7 +114,7 @@ def measures(sample: Sample) -> Data:
         data[case] = {}
         for name in values[1]:
             estimate = result.estimate(lambda run, of_run=of_run, name=name: of_run[id(run)][name])  # type: ignore[misc]
-            missed = sum(peak.missed(result) for peak in extremes(during).get(name, ()))
+            missed: float = sum(peak.missed(result) for peak in extremes(during).get(name, ()))
             if name != LARGEST:
                 missed += error_of_records(lambda n, values=values, name=name: values[n][name])  # type: ignore[misc]
             of_equations = TOLERANCE * max(abs(estimate.value), sizes.get(name, 0.0))

@@ -87,7 +87,8 @@ def tables(rulings: Sequence[Ruling], rows: Sequence[MachineRow]) -> dict[str, S
         repeated = "" if kind == NOT_MEASURABLE else str(sum(ruling.kind == kind for ruling in apart))
         verdicts.append((kind, str(len(which)), repeated, str(second), ", ".join(map(str, which))))
 
-    statements, thresholds = [], []
+    statements: list[tuple[str, ...]] = []
+    thresholds: list[tuple[str, ...]] = []
     for n, ruling in numbered:
         claim = ruling.claim
         share = "closed form" if claim.stiffness_mm else str(ruling.first)
@@ -112,12 +113,12 @@ def tables(rulings: Sequence[Ruling], rows: Sequence[MachineRow]) -> dict[str, S
         differing = "" if first_span == second_span else second_span
         factors.append((factor.label, factor.meaning, first_span, differing, shown, factor.reason))
 
-    failures = [
+    failures: list[tuple[str, ...]] = [
         (str(n), f"{row.sample['scale']:.3g}", f"{row.sample['start_height']:.3g}", row.failure)
         for n, row in enumerate(rows)
         if row.failure is not None
     ]
-    found = {
+    found: dict[str, tuple[tuple[str, ...], Sequence[tuple[str, ...]]]] = {
         "verdicts": (
             ("verdict", "statements", "without repetitions", "second hypercube", "no."),
             verdicts,

@@ -179,13 +179,14 @@ def size_figures(subject: Subject, results: Results, found: Found) -> dict[str, 
     if all(f"{column}.angle" in channels for column in COLUMNS):
         names = {column: column.replace("_", " ") for column in COLUMNS}
         angles: dict[tuple[str, str], Curve] = {
-            (f"{name} [deg]", f"{name}, change [deg]"): lambda run, c=column: (
-                DEGREES * rise.rearward_angle(run, c)
-            )  # type: ignore[misc]
-            for column, name in names.items()
+            (f"{name} [deg]", f"{name}, change [deg]"): _angle(column) for column, name in names.items()
         }
         drawings["fig11_column_angles"] = change_figure(subject, results, angles)
     return drawings
+
+
+def _angle(column: str) -> Curve:
+    return lambda run: DEGREES * rise.rearward_angle(run, column)
 
 
 def panel_figure(subject: Subject, results: Results, curve: Curve, label: str) -> Figure:

@@ -199,7 +199,8 @@ class Arrangement:
 
     def shown_tables(self, file: str, study: str) -> list[ShownTable]:
         """The first rows of a study's key table, on the page, or all that are not whole there."""
-        folder, shown = self.by_name[study].folder, []
+        folder = self.by_name[study].folder
+        shown: list[ShownTable] = []
         for name, sheet in self.tables[study].items():
             place, label = self.places[name]
             cut = place == PAGE and len(sheet.rows) > MOST_ROWS
