@@ -291,7 +291,7 @@ def test_energies_add_up(scene: str) -> None:
     ours, _, fine = runs(scene)
     turned = max(float(np.ptp(ours[f"energy.{kind}"])) for kind in ("kinetic", "potential", "work"))
     assert ours.energy_error <= 1e-5 * max(turned, 1e-3)
-    # the engine's steps; measured up to
+    # of the engine's steps, at the first order behind jumps
     assert fine.energy_error <= 1e-3 * max(turned, 1e-3)
 
 
