@@ -14,8 +14,7 @@ import math
 import signal
 import traceback
 import warnings
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -88,15 +87,12 @@ class Judgement:
     values: Mapping[str, float] = field(default_factory=dict)
 
 
-Run = Callable[[Scenario], Result]
-
-
 def run_with_its_error(scenario: Scenario) -> Result:
     """Run a scene as a user does who wants numbers with their errors."""
     return simulate(scenario, errors=True)
 
 
-def judge(make: Callable[[], Scenario], run: Run = run_with_its_error) -> Judgement:
+def judge(make: Callable[[], Scenario], run: Callable[[Scenario], Result] = run_with_its_error) -> Judgement:
     """Make a scene, run it and judge the result; warnings are errors."""
     try:
         with warnings.catch_warnings():
@@ -108,19 +104,30 @@ def judge(make: Callable[[], Scenario], run: Run = run_with_its_error) -> Judgem
         return Judgement(SILENT, f"{type(error).__name__}: {error} ({place})"[:400])
 
 
-def _judged(make: Callable[[], Scenario], run: Run) -> Judgement:
+def _judged(make: Callable[[], Scenario], run: Callable[[Scenario], Result]) -> Judgement:
+    """A failure has to say why, when, and what to change; a result is checked."""
     try:
         scenario = make()
         result = run(scenario)
     except InputError as error:
         return Judgement(REFUSED, f"{BEFORE}{error}"[:400])
     except SimulationError as error:
-        return _refused(error, scenario)
+        failure = error.failure
+        if failure.reason and failure.advice and math.isfinite(failure.time):
+            reason = f"at {failure.time:.6g} s: {failure.reason}"[:400]
+            return Judgement(REFUSED, reason, **_circumstances(scenario))
+        return Judgement(SILENT, f"refused without cause, time or advice: {failure}")
+    open_by, allowed = energy_open(result.scenario, result.channels)
+    depths = [
+        float(result[f"pin.{name}.depth"].max()) / pin.contact.bearing.bore_radius
+        for name, pin in result.scenario.clearance_pins.items()
+        if f"pin.{name}.depth" in result.channels
+    ]
     verdict = Judgement(
         GOOD,
         error=result.worst_error,
-        energy=_energy(result),
-        depth=_deepest(result),
+        energy=OPEN * float(open_by.max()) / allowed if allowed > 0.0 else 0.0,
+        depth=max(depths, default=0.0),
         oil=oil_open(result),
         restitution=largest_restitution(result),
         met=result.met,
@@ -129,41 +136,30 @@ def _judged(make: Callable[[], Scenario], run: Run) -> Judgement:
     return _compared(result, verdict)
 
 
-def _refused(error: SimulationError, scenario: Scenario) -> Judgement:
-    """A failure has to say why, when, and what to change."""
-    failure = error.failure
-    if failure.reason and failure.advice and math.isfinite(failure.time):
-        reason = f"at {failure.time:.6g} s: {failure.reason}"[:400]
-        return Judgement(REFUSED, reason, **_circumstances(scenario))
-    return Judgement(SILENT, f"refused without cause, time or advice: {failure}")
-
-
 def _circumstances(scenario: Scenario) -> dict[str, Any]:
     """The solver of a run and the values of a scene that maps show, as fields of its judgement."""
     masses = [body.mass for body in scenario.linkage.bodies.values()]
     values = {"mass_ratio": max(masses) / min(masses)}
+    chosen = scenario.formulation
     if scenario.goal is None:
         values["step_s"] = scenario.step
+    else:
+        chosen = settings_for(scenario, scenario.goal).formulation
     for pin in scenario.clearance_pins.values():
         values["clearance_m"] = pin.contact.bearing.clearance
-    chosen = (
-        scenario.formulation if scenario.goal is None else settings_for(scenario, scenario.goal).formulation
-    )
     return {"solver": "compiled" if chosen == "compiled" else "exudyn", "values": values}
 
 
 def _compared(result: Result, verdict: Judgement) -> Judgement:
     """The verdict after every check of the run by itself, against half its steps and another formulation."""
     finite = all(np.isfinite(channel.values).all() for channel in result.channels.values())
+    restitution = f"a free impact gives back {verdict.restitution:.4g} times what its law does"
     checks = [
         (finite, "a number is not finite"),
         (verdict.energy <= OPEN, f"energy is open by {verdict.energy:.2g} of what was turned over"),
         (not verdict.depth > DEEPEST, f"depth is {verdict.depth:.2g} of the bore's radius"),
         (not verdict.oil > LEAK, f"{verdict.oil:.2g} of a leg's oil is lost or made"),
-        (
-            not verdict.restitution > 1.0 + MORE,
-            f"a free impact gives back {verdict.restitution:.4g} times what its law does",
-        ),
+        (not verdict.restitution > 1.0 + MORE, restitution),
     ]
     if (pair := _halved(result)) is not None:
         whole, half = pair
@@ -182,132 +178,95 @@ def _compared(result: Result, verdict: Judgement) -> Judgement:
     return replace(verdict, outcome=SILENT, reason="; ".join(faults)) if faults else verdict
 
 
-def _energy(result: Result) -> float:
-    open_by, allowed = energy_open(result.scenario, result.channels)
-    return OPEN * float(open_by.max()) / allowed if allowed > 0.0 else 0.0
-
-
-def _deepest(result: Result) -> float:
-    depths = [
-        float(result[f"pin.{name}.depth"].max()) / pin.contact.bearing.bore_radius
-        for name, pin in result.scenario.clearance_pins.items()
-        if f"pin.{name}.depth" in result.channels
-    ]
-    return max(depths, default=0.0)
-
-
 def largest_restitution(result: Result) -> float:
     """The largest restitution of a free impact over that of its law; nan if there was none.
 
-    An impact is free if nothing rubs, no other contact or impulse falls into it, and little pulls the journal.
+    An impact is free if nothing rubs, no other contact or impulse falls into it, and little pulls the journal:
+    gravity, and what drives do to it, which the known time of flight of a running machine tells; of other
+    drives it is a guess. A free impact slower than the rest velocity is damped less.
     """
-    ratios = [math.nan]
-    pull, pins = _pull(result.scenario), result.scenario.clearance_pins
-    impulses = [(impulse.time, impulse.time) for impulse in result.impulses]
+    scenario, pins = result.scenario, result.scenario.clearance_pins
+    moved = any(drive.span(scenario.duration) != (0.0, 0.0) for drive in scenario.drives_in_use)
+    flight = timescales(scenario).flight
+    flights = (2.0 * pin.contact.bearing.clearance / flight**2 for pin in pins.values())
+    pull = max(math.hypot(*scenario.gravity), PULL if moved else 0.0, *flights)
+    ratios = []
     for name, pin in pins.items():
         law = pin.contact.normal
         if not isinstance(law, Hysteresis) or not isinstance(pin.contact.friction, Frictionless):
             continue
-        others = [
-            (impact.time, impact.separation_time)
-            for other in pins
-            if other != name
-            for impact in result.onsets.get(other, ())
-        ]
+        events = [(impulse.time, impulse.time) for impulse in result.impulses]
+        for other in pins.keys() - {name}:
+            events += [(impact.time, impact.separation_time) for impact in result.onsets.get(other, ())]
         for impact in result.onsets.get(name, ()):
             free = pull * (impact.separation_time - impact.time) < FREE * impact.speed
-            if free and not any(
-                begin - ALONE < impact.separation_time and impact.time < end + ALONE
-                for begin, end in [*others, *impulses]
-            ):
-                ratios.append(impact.separation_velocity / (_delivered(law, impact.speed) * impact.speed))
-    return float(np.nanmax(ratios)) if len(ratios) > 1 else math.nan
+            alone = not any(
+                begin - ALONE < impact.separation_time and impact.time < end + ALONE for begin, end in events
+            )
+            if free and alone:
+                damping = law.damping_factor * min(1.0, impact.speed / law.rest_velocity)
+                ratios.append(impact.separation_velocity / (delivered_restitution(damping) * impact.speed))
+    return float(np.nanmax(ratios)) if ratios else math.nan
 
 
-def _delivered(law: Hysteresis, speed: float) -> float:
-    """Restitution that a free impact delivers; one slower than the rest velocity [m/s] is damped less."""
-    return delivered_restitution(law.damping_factor * min(1.0, speed / law.rest_velocity))
-
-
-def _pull(scenario: Scenario) -> float:
-    """What pulls a journal besides its contact [m/s^2]: gravity, and what the machine's drives do to it.
-
-    That of a running machine from the time of flight that is known of it; of other drives a guess.
-    """
-    moved = any(drive.span(scenario.duration) != (0.0, 0.0) for drive in scenario.drives_in_use)
-    clearances = [pin.contact.bearing.clearance for pin in scenario.clearance_pins.values()]
-    flight = timescales(scenario).flight
-    flights = (2.0 * clearance / flight**2 for clearance in clearances)
-    return max(math.hypot(*scenario.gravity), PULL if moved else 0.0, *flights)
+# --- other runs of a scene ---
 
 
 def _halved(result: Result) -> tuple[Result, Result] | None:
     """A run with its error, and that of half its steps; None if there are no finer settings.
 
-    A run that was asked for at chosen steps has been halved already. So has one to an accuracy: of one that is
-    too long to be halved once more the coarser one is looked at.
+    A run at chosen steps has been halved already. So has one to an accuracy: of one that is too long to be
+    halved once more the coarser one counts.
     """
-    too_long = 2 * result.counts.steps > _most(result.scenario)
-    if result.coarser is not None and (result.goal is None or too_long):
+    most = MOST_OTHERS if result.scenario.chooses_steps else MOST_STEPS
+    if result.coarser is not None and (result.goal is None or 2 * result.counts.steps > most):
         return result.coarser, result
     try:
         finer = result.scenario.refined()
-    except InputError:  # so many steps an impact are not allowed
-        return None
-    if finer == result.scenario:
-        return None
-    try:
-        return result, simulate(_patient(finer))
-    except SimulationError:  # it cannot be told then; the runs that gave the error have agreed
+        if finer == result.scenario:
+            return None
+        return result, simulate(replace(finer, solver=replace(finer.solver, most_steps=most)))
+    # so many steps an impact are not allowed; or it cannot be told, and those that gave the error have agreed
+    except (InputError, SimulationError):
         return None
 
 
 def independent(scenario: Scenario) -> Result | None:
-    """The scene by a formulation that shares nothing but the laws; None if none covers it."""
+    """The scene by a formulation that shares nothing but the laws; None if none covers it in few steps.
+
+    A step of the Exudyn formulation that does not follow the vibration of the loaded contact damps it out, as
+    would its halves: they agree on what is wrong.
+    """
     if scenario.dimensions == 3:
         return None
-    patient = _patient(scenario)
     if scenario.chooses_steps:
-        others = _by_steps(patient)
+        longest = min(
+            scenario.recorded_every,
+            scenario.duration / FEWEST,
+            LARGEST_STEP,
+            FOLLOWED * timescales(scenario).resting,
+        )
+        for radius in RADII:
+            solver = SolverSettings(impact_steps=IMPACT_STEPS, most_steps=MOST_STEPS, spectral_radius=radius)
+            other = replace(scenario, formulation="exudyn", solver=solver)
+            other = replace(other, step=min(longest, ringing_step(other)))
+            if other.duration / other.step <= LONGEST:
+                break
+        else:
+            return None
     else:
         solver = SolverSettings(tolerance=TOLERANCE, most_steps=MOST_OTHERS)
-        others = [replace(patient, formulation="compiled", solver=solver)]
-    for other in others:
-        if formulation(other.formulation).covers(other):
-            try:
-                result = simulate(other, errors=True)
-            except SimulationError:
-                return None
-            return result if result.worst_error < TELLING else None
-    return None
+        other = replace(scenario, formulation="compiled", solver=solver)
+    if not formulation(other.formulation).covers(other):
+        return None
+    try:
+        result = simulate(other, errors=True)
+    except SimulationError:
+        return None
+    return result if result.worst_error < TELLING else None
 
 
-def _by_steps(scenario: Scenario) -> list[Scenario]:
-    """The scene by the Exudyn formulation, none if it would take too many steps.
-
-    A step that does not follow the vibration of the loaded contact damps it out, as would its halves: they
-    agree on what is wrong.
-    """
-    longest = FOLLOWED * timescales(scenario).resting
-    longest = min(scenario.recorded_every, scenario.duration / FEWEST, LARGEST_STEP, longest)
-    for radius in RADII:
-        steps = SolverSettings(impact_steps=IMPACT_STEPS, most_steps=MOST_STEPS, spectral_radius=radius)
-        other = replace(scenario, formulation="exudyn", solver=steps)
-        other = replace(other, step=min(longest, ringing_step(other)))
-        if other.duration / other.step <= LONGEST:
-            return [other]
-    return []
-
-
-def _patient(scenario: Scenario) -> Scenario:
-    """The same scene with as many steps as a check may take."""
-    return replace(scenario, solver=replace(scenario.solver, most_steps=_most(scenario)))
-
-
-def _most(scenario: Scenario) -> int:
-    """How many steps a run that only checks may take."""
-    return MOST_OTHERS if scenario.chooses_steps else MOST_STEPS
-
+# --- in workers ---
 
 PATIENCE = 300.0  # [s]; a run that takes longer hangs
 
@@ -316,64 +275,45 @@ class HangError(BaseException):
     """A run has taken too long. No Exception: nothing that judges or mends failures is to take it for one."""
 
 
-@contextmanager
-def patience(seconds: float) -> Iterator[list[HangError]]:
-    """Raise HangError if the block takes longer [s]; where the system knows no alarm it may take any time.
-
-    The list has the error once it has been raised: compiled code can turn it into an error of its own.
-    """
-    rung: list[HangError] = []
+def judged(place: int, case: Case) -> Judgement:
+    """Judge a case, in a worker; where the system knows no alarm it may take any time."""
+    del place
+    report(0.0)
     if not hasattr(signal, "setitimer"):
-        yield rung
-        return
+        return judge(case.scenario)
+    rung: list[HangError] = []  # compiled code can turn the error into one of its own
 
     def too_long(number: int, frame: Any) -> None:
         del number, frame
-        rung.append(HangError(f"no end after {seconds:g} s"))
+        rung.append(HangError(f"no end after {PATIENCE:g} s"))
         raise rung[0]
 
     before = signal.signal(signal.SIGALRM, too_long)
-    signal.setitimer(signal.ITIMER_REAL, seconds)
+    signal.setitimer(signal.ITIMER_REAL, PATIENCE)
     try:
-        yield rung
+        verdict = judge(case.scenario)
+    except HangError:
+        pass
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0.0)
         signal.signal(signal.SIGALRM, before)
-
-
-def judged(place: int, case: Case) -> Judgement:
-    """Judge a case, in a worker."""
-    del place
-    report(0.0)
-    try:
-        with patience(PATIENCE) as rung:
-            found = judge(case.scenario)
-    except HangError as error:
-        return Judgement(SILENT, f"hang: {error}")
-    return Judgement(SILENT, f"hang: {rung[0]}") if rung else found
+    return Judgement(SILENT, f"hang: {rung[0]}") if rung else verdict
 
 
 def lasted(place: int, name: str, duration: float) -> LongRun | str:
     """Make a long run, in a worker; return why there is none if it fails."""
     del place
     try:
-        return long_runs.run(long_runs.SCENES[name](duration), report)
+        return long_runs.run(long_runs.scene(name, duration), report)
     except SimulationError as error:
         return str(error)
 
 
 def judge_all(cases: Sequence[Case], workers: int | Workers) -> list[Judgement]:
-    """Verdicts on cases, in their order, under a progress bar.
-
-    workers: number of processes, or a pool.
-    """
-    with worker_pool(workers) as pool, bar(f"{len(cases)} scenes") as told:
-        return pool.run(
-            [(case,) for case in cases],
-            judged,
-            told,
-            lambda error: Judgement(SILENT, f"crash: {error.reason}"),
-        )
+    """Verdicts on cases, in their order, under a progress bar; workers: number of processes, or a pool."""
+    jobs = [(case,) for case in cases]
+    with worker_pool(workers) as pool, bar(f"{len(cases)} scenes") as show:
+        return pool.run(jobs, judged, show, lambda error: Judgement(SILENT, f"crash: {error.reason}"))
 
 
 def run_long(durations: Mapping[str, float], workers: int | Workers) -> dict[str, LongRun | str]:
@@ -381,6 +321,6 @@ def run_long(durations: Mapping[str, float], workers: int | Workers) -> dict[str
 
     durations: of the runs [s]. workers: number of processes, or a pool.
     """
-    with worker_pool(workers) as pool, bar(f"{len(durations)} long runs") as told:
-        found = pool.run([*durations.items()], lasted, told, lambda error: f"crash: {error.reason}")
-    return dict(zip(durations, found, strict=True))
+    with worker_pool(workers) as pool, bar(f"{len(durations)} long runs") as show:
+        runs = pool.run([*durations.items()], lasted, show, lambda error: f"crash: {error.reason}")
+    return dict(zip(durations, runs, strict=True))

@@ -6,16 +6,14 @@ takes far more steps.
 """
 
 import time
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from typing import Any, NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
 from studies.common import paper_machine
 from studies.slider_crank import run as slider_crank
 from support_exudyn import (
-    Drive,
     Held,
     Reciprocating,
     Scenario,
@@ -30,23 +28,15 @@ from support_exudyn.scene.contract import Progress, silent
 from support_exudyn.simulation.result_checks import energy_open, joints_apart, result_checks, turned_over
 from support_exudyn.simulation.single_run import paused_collector
 
-Series = npt.NDArray[np.float64]
-STROKE, PERIOD = 0.1, 4.0  # [m], [s]
-CLEARANCE_MM = 1.5
-CRANK_SPEED = 10.0  # [rad/s]
-RECORD_PERIOD = 0.05  # [s]
 STEP = 2e-3  # [s]
-GROWTH = 8.0
-AT_REST = 64.0  # the same where nothing moves
-IMPACT_STEPS = 64
-MOST_STEPS = 10**9
-IDEAL, SMOOTH, DRY, OIL, REST = "ideal pins", "1.5 mm", "friction", "oil columns", "at rest"
-CRANK = "crank"
+GROWTH, AT_REST = 8.0, 64.0  # of steps in flight, and where nothing moves
+IDEAL, SMOOTH, DRY, OIL, REST, CRANK = "ideal pins", "1.5 mm", "friction", "oil columns", "at rest", "crank"
+NAMES = (IDEAL, SMOOTH, DRY, OIL, REST, CRANK)
+DURATIONS = {name: 100.0 if name == CRANK else 1000.0 for name in NAMES}  # [s]
 PARTS = 10  # of a run: the first is compared with the last
 
 
-@dataclass(frozen=True)
-class LongRun:
+class LongRun(NamedTuple):
     """What a long run came to.
 
     simulated, wall: times [s]. steps, impacts: numbers. gap_first, gap_last: largest distance of
@@ -66,71 +56,41 @@ class LongRun:
     energy_share: float
 
 
-# --- scenes ---
+def scene(name: str, duration: float) -> Scenario:
+    """The scene of this name, of so many seconds.
 
-
-def _support(duration: float, sliding_coefficient: float | None = None, drive: Drive | None = None) -> Scenario:
-    loose = {}
-    if sliding_coefficient is not None:
-        loose[paper_machine.CLEARANCE_PIN] = paper_machine.clearance_joint(CLEARANCE_MM, sliding_coefficient)
-    return Scenario(
-        machine=reference_support(),
-        pins=loose,
-        drive=drive or Reciprocating(stroke=STROKE, period=PERIOD),
-        duration=duration,
-        formulation="exudyn",
-        step=STEP,
-        record_period=RECORD_PERIOD,
-        solver=SolverSettings(
-            impact_steps=IMPACT_STEPS,
-            growth=GROWTH if drive is None else AT_REST,
-            most_steps=MOST_STEPS,
-        ),
-    )
-
-
-def _on_oil(duration: float) -> Scenario:
-    # without hoses, whose flow takes fourteen times as long to compute
-    columns = {name: replace(column, line=None) for name, column in paper_machine.oil_columns().items()}
-    return replace(_support(duration, 0.0), actuators=columns, step=0.7 * STEP)  # nothing damps their vibration
-
-
-def _crank(duration: float) -> Scenario:
-    """The slider-crank of the field with a clearance slider pin with friction, turning slowly, with its weight.
-
-    It rattles for seconds and stays closed from then on.
+    On oil columns without hoses, whose flow takes fourteen times as long to compute, and at shorter steps, for
+    nothing damps the oil's vibration. The slider-crank turns slowly, with its weight: it rattles for seconds
+    and stays closed from then on.
     """
-    return replace(
-        slider_crank.scenarios()[slider_crank.DRY],
-        drive=Steady(rate=CRANK_SPEED),
-        duration=duration,
-        formulation="exudyn",
-        step=STEP,
-        record_period=RECORD_PERIOD,
-        gravity=(0.0, -9.81),
-        solver=SolverSettings(impact_steps=IMPACT_STEPS, growth=GROWTH, most_steps=MOST_STEPS),
+    settings: dict[str, Any] = {
+        "duration": duration,
+        "formulation": "exudyn",
+        "step": STEP,
+        "record_period": 0.05,
+        "solver": SolverSettings(impact_steps=64, growth=AT_REST if name == REST else GROWTH, most_steps=10**9),
+    }
+    if name == CRANK:
+        field_case = slider_crank.scenarios()[slider_crank.DRY]
+        return replace(field_case, drive=Steady(rate=10.0), gravity=(0.0, -9.81), **settings)
+    friction = paper_machine.SLIDING_COEFFICIENT if name == DRY else 0.0
+    pin = paper_machine.clearance_joint(paper_machine.CLEARANCE_MM, friction)
+    support = Scenario(
+        machine=reference_support(),
+        pins={} if name == IDEAL else {paper_machine.CLEARANCE_PIN: pin},
+        drive=Held() if name == REST else Reciprocating(stroke=0.1, period=4.0),
+        **settings,
     )
-
-
-SCENES: dict[str, Callable[[float], Scenario]] = {
-    IDEAL: _support,
-    SMOOTH: lambda duration: _support(duration, 0.0),
-    DRY: lambda duration: _support(duration, paper_machine.SLIDING_COEFFICIENT),
-    OIL: _on_oil,
-    REST: lambda duration: _support(duration, 0.0, Held()),
-    CRANK: _crank,
-}
-
-DURATIONS = {name: 100.0 if name == CRANK else 1000.0 for name in SCENES}  # [s]
-
-
-# --- running and measuring ---
+    if name == OIL:
+        columns = {name: replace(column, line=None) for name, column in paper_machine.oil_columns().items()}
+        return replace(support, actuators=columns, step=0.7 * STEP)
+    return support
 
 
 def run(scenario: Scenario, progress: Progress = silent) -> LongRun:
     """Run a scenario and measure it.
 
-    Raises SimulationError if it fails or does not stand up to the result checks, as `simulate` does.
+    Raises SimulationError if it fails or does not pass the result checks, as `simulate` does.
     """
     chosen = formulation(scenario.formulation)
     chosen.check(scenario)
@@ -138,12 +98,12 @@ def run(scenario: Scenario, progress: Progress = silent) -> LongRun:
     with paused_collector():
         outcome = chosen.run(scenario, progress)
     wall = time.perf_counter() - began
-    found = channels(scenario, outcome.trajectory)
-    if (failure := result_checks(scenario, outcome, found)) is not None:
+    recorded = channels(scenario, outcome.trajectory)
+    if (failure := result_checks(scenario, outcome, recorded)) is not None:
         raise SimulationError(failure)
     gaps = joints_apart(scenario, outcome)
     assert gaps is not None  # the motion is recorded
-    open_by, _ = energy_open(scenario, found)
+    open_by, _ = energy_open(scenario, recorded)
     times, tenth = outcome.trajectory.time, scenario.duration / PARTS
     first, last = times <= tenth, times >= scenario.duration - tenth
     return LongRun(
@@ -153,13 +113,7 @@ def run(scenario: Scenario, progress: Progress = silent) -> LongRun:
         impacts=sum(map(len, outcome.onsets.values())),
         gap_first=float(gaps[first].max()),
         gap_last=float(gaps[last].max()),
-        gap_slope=slope(times, gaps),
-        energy_first=float(open_by[first][-1]) / turned_over(found),
-        energy_share=float(open_by[-1]) / turned_over(found),
+        gap_slope=float(np.polyfit(times - times.mean(), gaps, 1)[0]),
+        energy_first=float(open_by[first][-1]) / turned_over(recorded),
+        energy_share=float(open_by[-1]) / turned_over(recorded),
     )
-
-
-def slope(times: Series, values: Series) -> float:
-    """The slope of the straight line that fits values best, per second."""
-    apart = times - times.mean()
-    return float(apart @ values / (apart @ apart))

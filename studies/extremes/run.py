@@ -8,9 +8,8 @@ judged stands in `studies.extremes.judge`.
 import math
 from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
-from functools import cached_property
 from types import SimpleNamespace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -60,32 +59,18 @@ KINDS = {  # the rows of the key table
 # --- shares of drawn scenes ---
 
 
-@dataclass(frozen=True)
-class CountedShare:
+class CountedShare(NamedTuple):
     """In how many drawn scenes something holds, and the interval of the share of all that could be drawn.
 
-    held, number: of so many so many. The interval is that of Clopper and Pearson, with a confidence of SURE.
+    held, number: of so many so many. interval: that of Clopper and Pearson, with a confidence of SURE.
     """
 
     held: int
     number: int
-
-    @cached_property
-    def interval(self) -> tuple[float, float]:
-        """The least and the largest share of all that could be drawn."""
-        from scipy.stats import binomtest  # takes a second to import
-
-        exact = binomtest(self.held, self.number).proportion_ci(SURE, "exact")
-        return float(exact.low), float(exact.high)
-
-    def named(self, name: str, case: str) -> Number:
-        """The share as a number; its error is the distance of the farther end of the interval."""
-        low, high = self.interval
-        value = self.held / self.number
-        return Number(name, case, value, "1", max(value - low, high - value))
+    interval: tuple[float, float]
 
     @property
-    def said(self) -> str:
+    def in_words(self) -> str:
         """The share in per cent, with its interval."""
         value, low, high = (100.0 * share for share in (self.held / self.number, *self.interval))
         return f"{value:.3g} % ({low:.3g} to {high:.3g} %)"
@@ -93,7 +78,10 @@ class CountedShare:
 
 def share_of(held: Sequence[bool]) -> CountedShare:
     """The share of those of which it holds."""
-    return CountedShare(sum(held), len(held))
+    from scipy.stats import binomtest  # takes a second to import
+
+    exact = binomtest(sum(held), len(held)).proportion_ci(SURE, "exact")
+    return CountedShare(sum(held), len(held), (float(exact.low), float(exact.high)))
 
 
 def shares(judged: Judged) -> dict[tuple[str, str], CountedShare]:
@@ -127,30 +115,32 @@ def middle(values: Sequence[float]) -> tuple[float, float]:
 
 def numbers(judged: Judged, long: Long) -> list[Number]:
     """Shares with their counting errors, extremes of this very set of runs, and what long runs came to."""
-    found = [share.named(*name) for name, share in shares(judged).items()]
-    random = [one.error for one in of_groups(judged, RANDOM) if one.outcome == GOOD]
-    error, of_error = middle(random)
+    made = []
+    for (name, case), share in shares(judged).items():
+        value, (low, high) = share.held / share.number, share.interval
+        made.append(Number(name, case, value, "1", max(value - low, high - value)))
+    error, of_error = middle([one.error for one in of_groups(judged, RANDOM) if one.outcome == GOOD])
     if math.isfinite(of_error):
-        found.append(Number("median_reported_error", "drawn, good", error, "1", of_error))
-    every = [verdict for _, verdict in judged if verdict.outcome == GOOD]
-    of_these = f"the {len(every)} good of {len(judged)} runs"  # others have other extremes
+        made.append(Number("median_reported_error", "drawn, good", error, "1", of_error))
+    good = [verdict for _, verdict in judged if verdict.outcome == GOOD]
+    of_these = f"the {len(good)} good of {len(judged)} runs"  # others have other extremes
     extremes = {
-        "largest_energy_open": [one.energy for one in every],
-        "largest_oil_open": [one.oil for one in every],
-        "largest_depth": [one.depth for one in every],
-        "largest_restitution_over_law": [one.restitution for one in every],
-        "largest_half_over_reported": [one.half / one.error for one in every if one.error],
+        "largest_energy_open": [one.energy for one in good],
+        "largest_oil_open": [one.oil for one in good],
+        "largest_depth": [one.depth for one in good],
+        "largest_restitution_over_law": [one.restitution for one in good],
+        "largest_half_over_reported": [one.half / one.error for one in good if one.error],
     }
-    found += [Number(name, of_these, largest(values), "1", 0.0) for name, values in extremes.items()]
+    made += [Number(name, of_these, largest(values), "1", 0.0) for name, values in extremes.items()]
     for name, run in long.items():
         if isinstance(run, LongRun):
             case = f"{name}, {run.simulated:g} s"
-            found += [
+            made += [
                 Number("largest_gap", case, run.gap_last, "m", 0.0),
                 Number("gap_slope", case, run.gap_slope, "m/s", 0.0),
                 Number("energy_open", case, run.energy_share, "1", 0.0),
             ]
-    return found
+    return made
 
 
 def largest(values: Sequence[float]) -> float:

@@ -1,5 +1,6 @@
 """All cases of the study: grids for the maps, sensible scenes, and random corners of every kind."""
 
+import itertools
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
@@ -50,24 +51,19 @@ class Case:
 # --- other machines ---
 
 
-def colliding(point: Point, ratio: float, speed: float) -> Scenario:
-    """Two free bodies of a mass ratio, of which one flies in the other's bore."""
+def colliding(point: Point, i: int, of: Draw) -> Scenario:
+    """Two free bodies without friction, of any mass ratio and speed, of which one flies in the other's bore."""
+    ratio, speed = of.log(1e-4, 1e4), of.log(1e-4, 10.0)
     duration = 4.0 * point.clearance_m / speed
     return Scenario(
         machine=ImpactStand(bore_mass=1000.0, journal_mass=1000.0 / ratio, speed=speed),
-        pins={"pin": point.pin},
+        pins={"pin": replace(point, mu=0.0).pin},
         gravity=(0.0, 0.0),
         duration=duration,
         step=max(min(point.step_s, duration / OF_IMPACT), duration / MOST_OF_FLIGHT),
         record_period=duration / OF_IMPACT,
         solver=settings(point),
     )
-
-
-def drawn_impact(point: Point, i: int, of: Draw) -> Scenario:
-    """Two free bodies without friction, of any mass ratio and speed."""
-    ratio, speed = of.log(1e-4, 1e4), of.log(1e-4, 10.0)
-    return colliding(replace(point, mu=0.0), ratio, speed)
 
 
 def hung_up(point: Point, i: int, of: Draw) -> Scenario:
@@ -126,9 +122,9 @@ BOX, HYDRAULICS, CORNERS = "box", "hydraulics", "corners"
 # kinds of random scenes: their part of all, and the maker of a scene from a point, a number and random choices
 RANDOM: dict[str, tuple[int, Callable[[Point, int, Draw], Scenario]]] = {
     CORNERS: (560, supports.corner),
-    BOX: (520, supports.drawn_boxed),
+    BOX: (520, supports.boxed),
     "slider-crank": (140, drawn_crank),
-    "free impact": (80, drawn_impact),
+    "free impact": (80, colliding),
     "start": (60, supports.started),
     "solver": (60, supports.with_solver),
     "mass ratio": (50, supports.of_masses),
@@ -189,34 +185,27 @@ RECORDS, STROKE = 500, 0.05  # of a stroke, and its length [m]
 def mapped() -> Iterator[Case]:
     """The scenes of the maps."""
     usual = Point(pace=PACE)
-    size = GRIDS[STEP_STIFFNESS]
-    for step in _axis("step_s", size):
-        for stiffness in _axis("stiffness", size):
-            values = {"step_s": step, "stiffness": stiffness}
-            yield _case(
-                STEP_STIFFNESS, values, partial(fallen, replace(usual, step_s=step, stiffness=stiffness))
-            )
-    size = GRIDS[CLEARANCE_SPEED]
-    for clearance in _axis("clearance_m", size):
-        for time in np.geomspace(0.05, 100.0, size).tolist():
-            values = {"clearance_m": clearance, "speed_m_s": STROKE / time}
-            drive = CubicStep(stroke=STROKE, start=0.1 * time, end=1.1 * time)
-            point = Point(clearance_m=clearance)
-            make = partial(to_accuracy, point, drive, 1.2 * time, 1.2 * time / RECORDS, "standard")
-            yield _case(CLEARANCE_SPEED, values, make)
-    size = GRIDS[FRICTION_STEP]
-    for static in np.geomspace(1e-7, 5e-2, size).tolist():
-        for step in _axis("step_s", size):
-            values = {"static_speed_m_s": static, "step_s": step}
-            point = replace(
-                usual, step_s=step, mu=0.25, static_speed_m_s=static, dynamic_speed_m_s=2.0 * static
-            )
-            yield _case(FRICTION_STEP, values, partial(fallen, point))
+    for step, stiffness in _grid(STEP_STIFFNESS, _span("step_s"), _span("stiffness")):
+        make = partial(fallen, replace(usual, step_s=step, stiffness=stiffness))
+        yield _case(STEP_STIFFNESS, {"step_s": step, "stiffness": stiffness}, make)
+    for clearance, time in _grid(CLEARANCE_SPEED, _span("clearance_m"), (0.05, 100.0)):
+        drive = CubicStep(stroke=STROKE, start=0.1 * time, end=1.1 * time)
+        point = Point(clearance_m=clearance)
+        make = partial(to_accuracy, point, drive, 1.2 * time, 1.2 * time / RECORDS, "standard")
+        yield _case(CLEARANCE_SPEED, {"clearance_m": clearance, "speed_m_s": STROKE / time}, make)
+    for static, step in _grid(FRICTION_STEP, (1e-7, 5e-2), _span("step_s")):
+        point = replace(usual, step_s=step, mu=0.25, static_speed_m_s=static, dynamic_speed_m_s=2.0 * static)
+        yield _case(FRICTION_STEP, {"static_speed_m_s": static, "step_s": step}, partial(fallen, point))
 
 
-def _axis(name: str, size: int) -> list[float]:
-    values: list[float] = np.geomspace(SPANS[name].low, SPANS[name].high, size).tolist()
-    return values
+def _span(name: str) -> tuple[float, float]:
+    return SPANS[name].low, SPANS[name].high
+
+
+def _grid(group: str, *spans: tuple[float, float]) -> Iterator[tuple[float, float]]:
+    """Pairs of values, evenly spaced by their logarithms between the ends of two spans."""
+    first, second = (np.geomspace(*span, GRIDS[group]).tolist() for span in spans)
+    yield from itertools.product(first, second)
 
 
 def _case(group: str, values: Mapping[str, float], make: Callable[[], Scenario]) -> Case:

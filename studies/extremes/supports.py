@@ -16,7 +16,6 @@ from support_exudyn import (
     CubicStep,
     Drive,
     Held,
-    HydraulicSupport,
     IdealPin,
     Machine,
     Roof,
@@ -25,7 +24,6 @@ from support_exudyn import (
     reference_support,
     simulate,
 )
-from support_exudyn.model.linkage import Part
 from support_exudyn.scenario.scenario_data import Accuracy
 from support_exudyn.simulation.automatic_settings import settings_for
 
@@ -39,14 +37,7 @@ BOXED = 0.3  # [s] of runs in the box
 FALL = 0.03  # [s] that the journal takes to fall through its clearance and bounce
 HALF, LOAD = 0.5, 5e4  # of the depth under this load [N], at which journals start in short runs
 ACCURACIES: tuple[Accuracy, ...] = ("draft", "standard", "reference")
-STARTS = {  # by how many clearances the journal starts off the centre
-    "concentric": 0.0,
-    "closed": 1.0,
-    "overlapping": 1.0,
-    "settled": 0.0,
-}
 BODIES = ("rear_link", "front_link", "shield", "canopy")
-GROWTHS = (1.0, 8.0, 64.0)  # of steps
 
 
 def settings(point: Point) -> SolverSettings:
@@ -69,6 +60,7 @@ def times(point: Point, longest: float = LONGEST) -> dict[str, Any]:
 @cache
 def rest_direction() -> tuple[float, float]:
     """From the bore's centre to where the journal of the rear pin lies at rest, bore in the base."""
+    channels = [f"pin.{PIN}.eccentricity_{axis}" for axis in "xy"]
     held = Scenario(
         machine=reference_support(),
         pins={PIN: Point().pin},
@@ -77,25 +69,21 @@ def rest_direction() -> tuple[float, float]:
         channels=(f"pin.{PIN}.eccentricity_?",),
     )
     result = simulate(held)
-    x, y = (float(result[f"pin.{PIN}.eccentricity_{axis}"][0]) for axis in "xy")
+    x, y = (float(result[channel][0]) for channel in channels)
     return x / math.hypot(x, y), y / math.hypot(x, y)
 
 
-def near(point: Point) -> Point:
-    """A journal that starts half as deep as it will come to rest, if the run is too short for a fall."""
-    if times(point)["duration"] >= FALL or point.eccentricity != (0.0, 0.0):
-        return point
-    x, y = rest_direction()
-    sign = 1.0 if point.bore == "first" else -1.0
-    away = 1.0 + HALF * point.normal.resting_depth(LOAD) / point.clearance_m
-    return replace(point, eccentricity=(sign * away * x, sign * away * y))
-
-
 def fallen(point: Point) -> Scenario:
-    """The support, held, with clearance in the rear pin whose journal falls and bounces."""
-    return Scenario(
-        machine=reference_support(), pins={PIN: near(point).pin}, solver=settings(point), **times(point)
-    )
+    """The support, held, with clearance in the rear pin whose journal falls and bounces.
+
+    If the run is too short for a fall, the journal starts half as deep as it will come to rest.
+    """
+    if times(point)["duration"] < FALL and point.eccentricity == (0.0, 0.0):
+        x, y = rest_direction()
+        away = 1.0 + HALF * point.normal.resting_depth(LOAD) / point.clearance_m
+        away *= 1.0 if point.bore == "first" else -1.0
+        point = replace(point, eccentricity=(away * x, away * y))
+    return Scenario(machine=reference_support(), pins={PIN: point.pin}, solver=settings(point), **times(point))
 
 
 def corner(point: Point, i: int, of: Draw) -> Scenario:
@@ -110,18 +98,17 @@ def corner(point: Point, i: int, of: Draw) -> Scenario:
 def with_solver(point: Point, i: int, of: Draw) -> Scenario:
     """The fall with other settings of the solver, by turns on columns of oil."""
     point = replace(point, spectral_radius=(0.0, 0.5, 1.0, point.spectral_radius)[i % 4])
-    solver = replace(settings(point), newton="full" if i % 2 else "modified", growth=GROWTHS[i % 3])
+    growth = (1.0, 8.0, 64.0)[i % 3]
+    solver = replace(settings(point), newton="full" if i % 2 else "modified", growth=growth)
     return replace(fallen(point), solver=solver, actuators=paper_machine.oil_columns() if i % 2 else {})
 
 
 def started(point: Point, i: int, of: Draw) -> Scenario:
     """The journal in the middle, in contact, indented by 0.1 mm, or settled."""
-    start, share = [*STARTS.items()][i % len(STARTS)]
-    if start == "overlapping":
-        share += 1e-4 / point.clearance_m
+    share = (0.0, 1.0, 1.0 + 1e-4 / point.clearance_m, 0.0)[i % 4]
     x, y = rest_direction()
     scene = fallen(replace(point, bore="first", eccentricity=(share * x, share * y)))
-    return replace(scene, start="settled" if start == "settled" else "concentric")
+    return replace(scene, start="settled" if i % 4 == 3 else "concentric")
 
 
 def everywhere(point: Point, i: int, of: Draw) -> Scenario:
@@ -133,27 +120,26 @@ def everywhere(point: Point, i: int, of: Draw) -> Scenario:
 
 def of_masses(point: Point, i: int, of: Draw) -> Scenario:
     """A body up to ten thousand times as heavy, or as light."""
-    body, factor = BODIES[i % len(BODIES)], of.log(1e-4, 1e4)
-    machine = reference_support()
-    parts = dict(machine.parts) | {body: tuple(_heavier(part, factor) for part in machine.parts[body])}
-    return replace(fallen(point), machine=replace(machine, parts=parts))
-
-
-def _heavier(part: Part, factor: float) -> Part:
-    moments = None
-    if part.moments is not None:
-        xx, yy, xy = part.moments
-        moments = (factor * xx, factor * yy, factor * xy)
-    return replace(part, mass=factor * part.mass, inertia=factor * part.inertia, moments=moments)
+    body, factor, machine = BODIES[i % len(BODIES)], of.log(1e-4, 1e4), reference_support()
+    parts = []
+    for part in machine.parts[body]:
+        xx, yy, xy = (factor * moment for moment in part.moments or (0.0, 0.0, 0.0))
+        moments = (xx, yy, xy) if part.moments is not None else None
+        parts.append(replace(part, mass=factor * part.mass, inertia=factor * part.inertia, moments=moments))
+    machine = replace(machine, parts={**machine.parts, body: tuple(parts)})
+    return replace(fallen(point), machine=machine)
 
 
 def of_posture(point: Point, i: int, of: Draw) -> Scenario:
     """The support from any height of its hinge, through any stroke within a tenth of a second."""
     height, stroke = of.even(1.0, 3.6), of.even(-1.0, 1.5)  # [m]
-    machine: HydraulicSupport = replace(reference_support(), start_hinge_height=height)
-    pins = {PIN: point.pin if i % 2 else IdealPin()}
-    drive = CubicStep(stroke=stroke, start=0.01, end=0.11)
-    return Scenario(machine=machine, pins=pins, drive=drive, solver=settings(point), **times(point))
+    return Scenario(
+        machine=replace(reference_support(), start_hinge_height=height),
+        pins={PIN: point.pin if i % 2 else IdealPin()},
+        drive=CubicStep(stroke=stroke, start=0.01, end=0.11),
+        solver=settings(point),
+        **times(point),
+    )
 
 
 def under_roof(point: Point, i: int, of: Draw) -> Scenario:
@@ -211,16 +197,11 @@ def to_accuracy(point: Point, drive: Drive, duration: float, period: float, accu
     )
 
 
-def boxed(point: Point, accuracy: Accuracy, drive: Drive) -> Scenario:
-    """A physically sensible scene, with a drive or held."""
-    return to_accuracy(point, drive, BOXED * point.pace, 1e-3 * point.pace, accuracy)
-
-
-def drawn_boxed(point: Point, i: int, of: Draw) -> Scenario:
+def boxed(point: Point, i: int, of: Draw) -> Scenario:
     """A physically sensible scene: accuracies take turns, and rests with strokes as steep as the paper's."""
     seconds = BOXED * point.pace
     gentle = CubicStep(stroke=0.1 * seconds, start=0.5 * seconds, end=0.9 * seconds)
-    return boxed(point, ACCURACIES[i % 3], Held() if i % 2 else gentle)
+    return to_accuracy(point, Held() if i % 2 else gentle, seconds, 1e-3 * point.pace, ACCURACIES[i % 3])
 
 
 def limited(scene: Scenario) -> Scenario:

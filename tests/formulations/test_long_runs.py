@@ -38,7 +38,7 @@ VIBRATION = 1e-4
 )
 def test_a_support_raised_and_lowered_for_long_neither_drifts_nor_loses_energy(name: str) -> None:
     duration = 24.0
-    found = long_runs.run(long_runs.SCENES[name](duration))
+    found = long_runs.run(long_runs.scene(name, duration))
     # measured: 4e-12 m, what Newton's method leaves open; asked for: 1e-8 m
     assert 0.0 < found.gap_first < 1e-10
     assert found.gap_last < 1e-10
@@ -80,14 +80,14 @@ def test_every_step_of_the_compiled_formulation_ends_with_its_joints_closed() ->
 
 
 def test_what_has_come_to_rest_stays_at_rest_and_costs_little() -> None:
-    result = simulate(long_runs.SCENES[long_runs.REST](40.0))
+    result = simulate(long_runs.scene(long_runs.REST, 40.0))
     late = result.time > 20.0
     # the pin's swings fall off as long as they are damped; what is left is rounding of 6 t at 1e-13 m
     assert result["energy.kinetic"][late].max() < 1e-12
     # rounding of a depth that is the difference of places some metres from the origin
     # (the last step is half as long, and Newton's method leaves 1e-12 m after that)
     assert np.ptp(result["pin.rear_base.depth"][late][:-1]) < 1e-13
-    longer = simulate(long_runs.SCENES[long_runs.REST](60.0))
+    longer = simulate(long_runs.scene(long_runs.REST, 60.0))
     # steps of 0.1 s: two records
     assert longer.counts.steps - result.counts.steps == pytest.approx(20.0 / 0.1, abs=2)
 
