@@ -30,9 +30,8 @@ from studies.scene_detail.scenes import (
     REAR,
     UNEQUAL_FULLEST,
     UNEQUAL_IDEAL,
-    DetailScene,
 )
-from support_exudyn import Estimate, Result, recommend
+from support_exudyn import Result, recommend
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.page.pieces import Sheet
 from support_exudyn.simulation.evidence.table import EvidenceTable as Tried
@@ -55,7 +54,6 @@ PANELS = {
     RELATIVE["largest_pin_force"]: ("largest force [%]", 1e-2),
     FARTHEST: ("tip, farthest [mm]", 1e-3),
 }
-COST = "cost ratio"
 MORE, LESS, OPEN = style.CONTACT, style.WITH_CLEARANCE, "#777777"
 PURPLE = "#CC79A7"
 DASHES = (0, (4, 2))
@@ -66,10 +64,9 @@ ROW_MM = 4.3  # height of an element's row
 
 def figures(measured: Mapping[str, MeasuredScene]) -> dict[str, Figure]:
     """All figures, by file name."""
-    runs = {name: one.run for name, one in measured.items()}
     return {
         "change_and_cost": change_figure(measured),
-        "unequal_columns": unequal_figure(runs),
+        "unequal_columns": unequal_figure({name: one.run for name, one in measured.items()}),
     }
 
 
@@ -77,45 +74,53 @@ def figures(measured: Mapping[str, MeasuredScene]) -> dict[str, Figure]:
 
 
 def change_figure(measured: Mapping[str, MeasuredScene]) -> Figure:
-    """A row for each element, named beside it; a panel for each number that it changes, and for its cost."""
-    groups = {group: _elements(measured, group) for group in ("added", "taken")}
-    heights = [len(names) for names in groups.values()]
+    """A row for each element, named beside it; a panel for each number that it changes, and for its cost.
+
+    An element that has another reference than the others of its group has a star.
+    """
+    groups = [of_group(measured, group) for group in ("added", "taken")]
+    heights = [len(elements) for elements in groups]
     drawing = Figure(figsize=style.size(180, 30 + ROW_MM * sum(heights)))
     panels = drawing.subplots(2, len(PANELS) + 1, sharey="row", sharex="col", height_ratios=heights)
-    for line, names in zip(panels, groups.values(), strict=True):
-        for axes, (heading, (_, smallest)) in zip(line, PANELS.items(), strict=False):
-            for place, name in enumerate(names):
-                one = measured[name]
-                _dot(axes, place, changes(one, measured[one.scene.reference])[heading], smallest)
-            axes.set_xscale("log")
-        times = [times_as_long(measured[name], measured[measured[name].scene.reference]) for name in names]
-        line[-1].plot(times, range(len(names)), "s", color=style.IDEAL, ms=3.5)
+    for line, elements in zip(panels, groups, strict=True):
+        for axes, (column, (_, smallest)) in zip(line, PANELS.items(), strict=False):
+            for place, pair in enumerate(elements):
+                _dot(axes, place, changes(*pair)[column], smallest)
+        line[-1].plot(
+            [times_as_long(*pair) for pair in elements], range(len(elements)), "s", color=style.IDEAL, ms=3.5
+        )
         line[-1].axvline(1.0, color=style.IDEAL, lw=0.6)
-        line[-1].set_xscale("log")
-        line[0].set_yticks(range(len(names)), [_named(measured[name].scene) for name in names])
-        line[0].set_ylim(len(names) - 0.4, -0.6)
-    for axes, label in zip(panels[-1], (*(label for label, _ in PANELS.values()), COST), strict=True):
+        scenes = [one.scene for one, _ in elements]
+        stars = ["" if scene.reference in (PLAINEST, FULLEST) else " *" for scene in scenes]
+        labels = [f"{scene.element}{star}" for scene, star in zip(scenes, stars, strict=True)]
+        line[0].set_yticks(range(len(elements)), labels)
+        line[0].set_ylim(len(elements) - 0.4, -0.6)
+    for axes, label in zip(panels[-1], (*(label for label, _ in PANELS.values()), "cost ratio"), strict=True):
         axes.set_xlabel(label, fontsize=8)
     for axes in panels.flat:
+        axes.set_xscale("log")
         axes.tick_params(labelsize=7)
         axes.xaxis.set_major_locator(LogLocator(numticks=3))
         axes.minorticks_off()
     letters(list(panels.flat))
-    drawing.legend(handles=_signs(), loc="outside lower center", ncols=3, fontsize=8)
+    kinds = ((MORE, MORE, "^", "more"), (LESS, LESS, "v", "less"), (OPEN, "white", "<", "no more than this"))
+    signs = [Line2D([], [], color=edge, mfc=face, marker=mark, ls="", ms=4.5, label=label)
+             for edge, face, mark, label in kinds]  # fmt: skip
+    drawing.legend(handles=signs, loc="outside lower center", ncols=3, fontsize=8)
     return drawing
 
 
-def _elements(measured: Mapping[str, MeasuredScene], group: str) -> list[str]:
-    return [name for name, one in measured.items() if one.scene.group == group and one.scene.reference]
-
-
-def _named(scene: DetailScene) -> str:
-    """An element with its sign; what has another reference than the others of its group says which."""
-    of_another = scene.reference not in (PLAINEST, FULLEST)
-    return f"{scene.element} *" if of_another else scene.element
+def of_group(measured: Mapping[str, MeasuredScene], group: str) -> list[tuple[MeasuredScene, MeasuredScene]]:
+    """The scenes of a group that have a reference, each with its reference."""
+    return [
+        (one, measured[one.scene.reference])
+        for one in measured.values()
+        if one.scene.group == group and one.scene.reference
+    ]
 
 
 def _dot(axes: Axes, place: int, change: Change, smallest: float) -> None:
+    """A change with its error; of a change below its error or this size a hollow sign."""
     size = abs(change.value)
     if change.below_error or size < smallest:
         axes.plot(max(change.error, smallest), place, "<", mfc="white", mec=OPEN, ms=4)
@@ -123,12 +128,6 @@ def _dot(axes: Axes, place: int, change: Change, smallest: float) -> None:
     below = min(change.error, 0.9 * size)
     colour, marker = (MORE, "^") if change.value > 0.0 else (LESS, "v")
     axes.errorbar(size, place, xerr=[[below], [change.error]], fmt=marker, color=colour, ms=4, lw=0.8)
-
-
-def _signs() -> list[Line2D]:
-    kinds = ((MORE, MORE, "^", "more"), (LESS, LESS, "v", "less"), (OPEN, "white", "<", "no more than this"))
-    return [Line2D([], [], color=edge, mfc=face, marker=mark, ls="", ms=4.5, label=said)
-            for edge, face, mark, said in kinds]  # fmt: skip
 
 
 # --- columns driven apart ---
@@ -219,31 +218,25 @@ UNEQUAL_ROWS = {  # heading and scale
 
 def changes(one: MeasuredScene, reference: MeasuredScene) -> dict[str, Change]:
     """What a scene changes against its reference, by heading: per cent, and millimetres of the tip."""
-    found = {
-        heading: change(one.numbers[name], reference.numbers[name]).of(reference.numbers[name].value)
+    here, there = one.numbers, reference.numbers
+    made = {
+        heading: change(here[name], there[name]).scaled(100.0 / there[name].value)
         for name, heading in RELATIVE.items()
     }
-    canopy = "largest_canopy_acceleration"
-    found[CANOPY] = change(one.numbers[canopy], reference.numbers[canopy])
-    found[TIP] = change(one.numbers["mean_tip_x"], reference.numbers["mean_tip_x"]).scaled(MM)
-    away = one.numbers[FROM_REFERENCE]
-    found[FARTHEST] = Change(away.value, away.error).scaled(MM)
-    return found
+    made[CANOPY] = change(here["largest_canopy_acceleration"], there["largest_canopy_acceleration"])
+    made[TIP] = change(here["mean_tip_x"], there["mean_tip_x"]).scaled(MM)
+    made[FARTHEST] = Change(*here[FROM_REFERENCE][:2]).scaled(MM)
+    return made
 
 
 def shown(found: Change) -> str:
-    """A change with its error, or that it is below it."""
+    """A change with its error, or that it is below it; no more digits than the error leaves, four at most."""
     if found.below_error:
         return f"{BELOW}, {found.error:.1g}"
-    # no more digits than the error leaves, and four at most
-    return f"{'+' if found.value > 0.0 else ''}{_short(found)}"
-
-
-def _short(found: Change) -> str:
+    text = rounded(found.value, found.error)
     if found.error < 1e-3 * abs(found.value):
-        digits = max(0, 3 - math.floor(math.log10(abs(found.value))))
-        return f"{found.value:.{digits}f}"
-    return rounded(found.value, found.error)
+        text = f"{found.value:.{max(0, 3 - math.floor(math.log10(abs(found.value))))}f}"
+    return f"+{text}" if found.value > 0.0 else text
 
 
 def ratio(times: float) -> str:
@@ -254,31 +247,27 @@ def ratio(times: float) -> str:
 def change_table(measured: Mapping[str, MeasuredScene], group: str) -> Sheet:
     """What each element of a group changes, and how many times the reference's time the scene takes."""
     rows = []
-    for one in measured.values():
-        if one.scene.group == group and one.scene.reference:
-            reference = measured[one.scene.reference]
-            cells = (shown(item) for item in changes(one, reference).values())
-            times = ratio(times_as_long(one, reference))
-            rows.append((one.scene.element, one.scene.reference, *cells, times))
+    for one, reference in of_group(measured, group):
+        cells = (shown(item) for item in changes(one, reference).values())
+        rows.append((one.scene.element, one.scene.reference, *cells, ratio(times_as_long(one, reference))))
     header = ("element", "against", *RELATIVE.values(), CANOPY, TIP, FARTHEST, "times the time")
     return text_table(header, rows, left=2)
 
 
-def _cell(number: Estimate | None, scale: float) -> str:
-    if number is None:
-        return ""
-    if abs(number.value) <= SMALLEST[number.unit]:
-        return "0"  # but for rounding
-    return rounded(scale * number.value, scale * number.error)
-
-
 def unequal_table(measured: Mapping[str, MeasuredScene]) -> Sheet:
-    """What the plane cannot show."""
-    scenes = {name: one for name, one in measured.items() if one.scene.group == "unequal"}
-    rows = tuple(
-        (heading, *(_cell(one.numbers.get(key), scale) for one in scenes.values()))
-        for key, (heading, scale) in UNEQUAL_ROWS.items()
-    )
+    """What the plane cannot show; a number is 0 but for rounding."""
+    scenes = {name: one.numbers for name, one in measured.items() if one.scene.group == "unequal"}
+    rows = []
+    for key, (heading, scale) in UNEQUAL_ROWS.items():
+        cells = []
+        for number in (numbers.get(key) for numbers in scenes.values()):
+            if number is None:
+                cells.append("")
+            elif abs(number.value) <= SMALLEST[number.unit]:
+                cells.append("0")
+            else:
+                cells.append(rounded(scale * number.value, scale * number.error))
+        rows.append((heading, *cells))
     return text_table(("quantity", *scenes), rows)
 
 
@@ -301,9 +290,9 @@ def advice_table(tried: Tried) -> Sheet:
 def _of_elements(measured: Mapping[str, MeasuredScene], group: str, heading: str) -> list[tuple[str, Change]]:
     """The elements of a group with the change of a number against the plainest or the fullest scene."""
     return [
-        (one.scene.element[2:], changes(one, measured[one.scene.reference])[heading])
-        for one in measured.values()
-        if one.scene.group == group and one.scene.reference in (PLAINEST, FULLEST)
+        (one.scene.element[2:], changes(one, reference)[heading])
+        for one, reference in of_group(measured, group)
+        if one.scene.reference in (PLAINEST, FULLEST)
     ]
 
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import operator
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -14,7 +14,6 @@ from studies.common.numbers import Number, measured
 from studies.common.runs import bar, halvings, impacts, with_coarser
 from studies.scene_detail.scenes import FULLEST, REAR, DetailScene
 from support_exudyn import Estimate, Failure, Result, Scenario, SimulationError, simulate
-from support_exudyn.mechanics.time_statistics import TimeWindow
 from support_exudyn.simulation.evidence.table import EvidenceTable, Tried, fields_of
 from support_exudyn.simulation.recommend import STROKE, UNEQUAL
 from support_exudyn.sweeps.workers import Workers, report, worker_pool
@@ -26,14 +25,11 @@ IMPACTS = 3
 SHORT_RUN = 0.1  # shorter runs are timed again, alone [s]
 MM, DEGREES = 1e3, rise.DEGREES
 Get = Callable[[Result], float]
-MEAN: Callable[[TimeWindow], float] = operator.attrgetter("mean")
-STD: Callable[[TimeWindow], float] = operator.attrgetter("std")
 Numbers = dict[str, Estimate]
 FROM_REFERENCE, FROM_FULLEST = "tip_distance_from_reference", "tip_distance_from_fullest"
 
 
-@dataclass(frozen=True)
-class Change:
+class Change(NamedTuple):
     """What a number changes from one scene to another, and both numerical errors together, in one unit."""
 
     value: float
@@ -44,13 +40,9 @@ class Change:
         """Whether nothing can be said but that it is no larger than the errors."""
         return abs(self.value) <= self.error
 
-    def of(self, size: float) -> Change:
-        """The number in per cent of a size."""
-        return Change(100.0 * self.value / size, 100.0 * self.error / abs(size))
-
     def scaled(self, scale: float) -> Change:
         """The number in another unit."""
-        return Change(scale * self.value, scale * self.error)
+        return Change(scale * self.value, abs(scale) * self.error)
 
 
 def change(here: Estimate, there: Estimate) -> Change:
@@ -58,8 +50,7 @@ def change(here: Estimate, there: Estimate) -> Change:
     return Change(here.value - there.value, here.error + there.error)
 
 
-@dataclass(frozen=True)
-class Cost:
+class Cost(NamedTuple):
     """What a scene costs at its longer steps.
 
     seconds: processor time. scatter: of it [s]. steps. calls: of user functions, a step.
@@ -69,11 +60,6 @@ class Cost:
     scatter: float
     steps: int
     calls: float
-
-    @property
-    def per_step(self) -> float:
-        """Processor time of a step [us]."""
-        return 1e6 * self.seconds / self.steps
 
 
 @dataclass(frozen=True)
@@ -98,80 +84,77 @@ def estimate(run: Result, unit: str, get: Get) -> Estimate:
 
 def measure(scenes: Mapping[str, DetailScene], runs: Mapping[str, Timed]) -> dict[str, MeasuredScene]:
     """All numbers of all scenes."""
-    finest = {name: timed.run for name, timed in runs.items()}
-    found = {}
+    made = {}
     for name, scene in scenes.items():
-        numbers = _of_stroke(scene, finest[name]) | _impacts(finest[name])
+        run = runs[name].run
+        measures = _of_stroke(scene, run)
         if scene.group == "unequal":
-            numbers |= _of_unequal(scene, finest[name])
-        elif scene.reference:
-            numbers[FROM_REFERENCE] = tip_distance(scene, finest[name], finest[scene.reference])
+            measures |= _of_unequal(scene, run)
+        numbers = {what: estimate(run, unit, get) for what, (unit, get) in measures.items()}
+        if scene.reference and scene.group != "unequal":
+            numbers[FROM_REFERENCE] = tip_distance(scene, run, runs[scene.reference].run)
         if scene.family == STROKE:
-            numbers[FROM_FULLEST] = tip_distance(scene, finest[name], finest[FULLEST])
-        found[name] = MeasuredScene(scene, numbers, _cost(runs[name]), finest[name])
-    return found
+            numbers[FROM_FULLEST] = tip_distance(scene, run, runs[FULLEST].run)
+        made[name] = MeasuredScene(scene, numbers, _cost(runs[name]), run)
+    return made
 
 
-def _of_stroke(scene: DetailScene, result: Result) -> Numbers:
+def _of_stroke(scene: DetailScene, result: Result) -> dict[str, tuple[str, Get]]:
+    """Measures of the stroke, and of the first impacts of a clearance rear pin; a settled one has none."""
     force = f"pin.{REAR}.force"
 
-    def over_time(statistic: Callable[[TimeWindow], float], channel: str, scale: float = 1.0) -> Get:
-        return lambda run: scale * statistic(run.window(channel, scene.begin, scene.end))
+    def over_time(statistic: str, channel: str, scale: float = 1.0) -> Get:
+        return lambda run: scale * getattr(run.window(channel, scene.begin, scene.end), statistic)
 
     def largest(channel: str, scale: float) -> Get:
         return rise.Crest(channel, scale, scene.begin, scene.end)
 
-    at_all: Get = rise.Crest(force, 1.0, 0.0, scene.scenario.duration)
-    if REAR in result.largest_force:  # at the ends of all steps
-        at_all = lambda run: float(run.largest_force[REAR])  # noqa: E731
+    def at_steps(run: Result) -> float:
+        return float(run.largest_force[REAR])
+
+    of_all = at_steps if REAR in result.largest_force else rise.Crest(force, 1.0, 0.0, scene.scenario.duration)
     measures: dict[str, tuple[str, Get]] = {
-        "mean_pin_force": ("N", over_time(MEAN, force)),
-        "std_pin_force": ("N", over_time(STD, force)),
+        "mean_pin_force": ("N", over_time("mean", force)),
+        "std_pin_force": ("N", over_time("std", force)),
         "largest_pin_force_in_stroke": ("N", largest(force, 1.0)),
-        "largest_pin_force": ("N", at_all),
-        "mean_tip_x": ("m", over_time(MEAN, "tip.x")),
-        "mean_tip_y": ("m", over_time(MEAN, "tip.y")),
+        "largest_pin_force": ("N", of_all),
+        "mean_tip_x": ("m", over_time("mean", "tip.x")),
+        "mean_tip_y": ("m", over_time("mean", "tip.y")),
         "std_angular_acceleration": (
             "deg/s^2",
-            over_time(STD, "rear_link.angular_acceleration", DEGREES),
+            over_time("std", "rear_link.angular_acceleration", DEGREES),
         ),
         "largest_canopy_acceleration": ("deg/s^2", largest("canopy.angular_acceleration", DEGREES)),
     }
-    return {name: estimate(result, unit, get) for name, (unit, get) in measures.items()}
+    for n in range(min(IMPACTS, impacts(result, REAR))):
+        measures[f"onset_speed_{n + 1}"] = "m/s", rise.onset(REAR, n, "speed")
+    return measures
 
 
-def _impacts(result: Result) -> Numbers:
-    """Speeds of the first impacts of the rear pin, if it is with clearance; a settled one has none."""
-    return {
-        f"onset_speed_{n + 1}": estimate(result, "m/s", rise.onset(REAR, n, "speed"))
-        for n in range(min(IMPACTS, impacts(result, REAR)))
-    }
+def _of_unequal(scene: DetailScene, result: Result) -> dict[str, tuple[str, Get]]:
+    """Measures of columns driven apart."""
 
-
-def _of_unequal(scene: DetailScene, result: Result) -> Numbers:
     def largest(*channels: str, scale: float = 1.0) -> Get:
         return lambda run: max(scale * float(np.abs(run[channel]).max()) for channel in channels)
 
-    def last(channel: str) -> Get:
-        return lambda run: float(run[channel][-1])
-
-    moment, column = f"pin.{REAR}.moment", "front_column"
+    moment, sides = f"pin.{REAR}.moment", ("left", "right")
+    columns = {side: f"front_column_{side}.force" for side in sides}
     measures: dict[str, tuple[str, Get]] = {
         "largest_roll": ("deg", largest("canopy.roll", scale=DEGREES)),
         "largest_yaw": ("deg", largest("canopy.yaw", scale=DEGREES)),
-        "largest_front_column_force": ("N", largest(f"{column}_left.force", f"{column}_right.force")),
-        "left_front_column_force_at_the_end": ("N", last(f"{column}_left.force")),
-        "right_front_column_force_at_the_end": ("N", last(f"{column}_right.force")),
+        "largest_front_column_force": ("N", largest(*columns.values())),
     }
+    for side, column in columns.items():
+        measures[f"{side}_front_column_force_at_the_end"] = "N", lambda run, c=column: float(run[c][-1])
     if result.channels[f"{moment}_x"].is_determined:  # not of ideal pins, which share it at will
         measures["largest_moment"] = (
             "N m",
             lambda run: float(np.hypot(run[f"{moment}_x"], run[f"{moment}_y"]).max()),
         )
-    if REAR in scene.scenario.clearance_pins:
-        measures["largest_left_depth"] = "m", lambda run: float(run[f"pin.{REAR}.left_depth"].max())
-        measures["largest_right_depth"] = "m", lambda run: float(run[f"pin.{REAR}.right_depth"].max())
-    return {name: estimate(result, unit, get) for name, (unit, get) in measures.items()}
+    for side in sides if REAR in scene.scenario.clearance_pins else ():
+        depth = f"pin.{REAR}.{side}_depth"
+        measures[f"largest_{side}_depth"] = "m", lambda run, channel=depth: float(run[channel].max())
+    return measures
 
 
 def tip_distance(scene: DetailScene, run: Result, other: Result) -> Estimate:
@@ -179,19 +162,16 @@ def tip_distance(scene: DetailScene, run: Result, other: Result) -> Estimate:
     if run is other:
         return Estimate(0.0, 0.0, "m")
 
-    def wandering(one: Result) -> float:
-        return one.estimate(lambda coarser: _apart(scene, one, coarser)).error
+    def apart(one: Result, two: Result, every: int = 1) -> float:
+        inside = rise.between(one, scene.begin, scene.end)
+        away = [(one[f"tip.{axis}"] - two[f"tip.{axis}"])[inside][::every] for axis in "xy"]
+        return float(np.hypot(*away).max())
 
-    far = _apart(scene, run, other)
-    of_records = far - _apart(scene, run, other, every=2)
-    error = wandering(run) + wandering(other) + of_records
+    far = apart(run, other)
+    error = far - apart(run, other, every=2)  # of records
+    for one in (run, other):
+        error += one.estimate(lambda coarser, one=one: apart(one, coarser)).error  # type: ignore[misc]
     return Estimate(far, max(error, SMALLEST["m"]), "m")
-
-
-def _apart(scene: DetailScene, one: Result, other: Result, every: int = 1) -> float:
-    inside = rise.between(one, scene.begin, scene.end)
-    away = [(one[f"tip.{axis}"] - other[f"tip.{axis}"])[inside][::every] for axis in ("x", "y")]
-    return float(np.hypot(*away).max())
 
 
 # --- cost ---
@@ -203,11 +183,10 @@ def _cost(run: Timed) -> Cost:
     # a step of the next finer run costs as much
     scatter = abs(seconds - run.half_seconds * coarse.counts.steps / half.counts.steps)
     if seconds < SHORT_RUN:
-        times = [timed(coarse.scenario) for _ in range(4)]
+        times = [_run(0, "", coarse.scenario)[1] for _ in range(4)]
         seconds, scatter = min(times), sorted(times)[2] - min(times)
-    counts = coarse.counts
-    calls = counts.user_function_calls / counts.steps
-    return Cost(seconds, scatter, counts.steps, calls)
+    steps = coarse.counts.steps
+    return Cost(seconds, scatter, steps, coarse.counts.user_function_calls / steps)
 
 
 # --- for the summary and for advice ---
@@ -215,18 +194,18 @@ def _cost(run: Timed) -> Cost:
 
 def listed(measured: Mapping[str, MeasuredScene]) -> list[Number]:
     """All numbers of all scenes, costs among them."""
-    found = []
+    numbers = []
     for name, one in measured.items():
-        found += [Number(what, name, size, unit, error) for what, (size, error, unit) in one.numbers.items()]
+        numbers += [Number(what, name, size, unit, error) for what, (size, error, unit) in one.numbers.items()]
         cost = one.cost
-        of_step = cost.scatter / cost.seconds * cost.per_step
-        found += [
+        per_step, scatter = (1e6 * time / cost.steps for time in (cost.seconds, cost.scatter))
+        numbers += [
             Number("processor_time", name, cost.seconds, "s", cost.scatter),
-            Number("processor_time_of_a_step", name, cost.per_step, "us", of_step),
+            Number("processor_time_of_a_step", name, per_step, "us", scatter),
             Number("user_function_calls_a_step", name, cost.calls, "1", 0.0),
             Number("steps", name, float(cost.steps), "1", 0.0),
         ]
-    return found
+    return numbers
 
 
 def table(measured: Mapping[str, MeasuredScene], said: Mapping[str, str]) -> EvidenceTable:
@@ -247,8 +226,7 @@ def times_as_long(one: MeasuredScene, other: MeasuredScene) -> float:
     return one.cost.seconds / other.cost.seconds
 
 
-@dataclass(frozen=True)
-class Timed:
+class Timed(NamedTuple):
     """A run with errors of a case, and the processor times at its steps and at half of them [s]."""
 
     run: Result
@@ -263,28 +241,21 @@ def run_timed(cases: Mapping[str, Scenario], workers: int | Workers) -> dict[str
     """
     half = {name: case.refined() for name, case in cases.items()}
     jobs = [*((name, case.refined()) for name, case in half.items()), *half.items(), *cases.items()]
-    with bar(f"{len(jobs)} runs") as told, worker_pool(workers) as pool:
-        done = pool.run(jobs, _run, told)
-    found = {}
-    for n, name in enumerate(cases):
-        fine, middle, coarse = (_good(name, *done[k * len(cases) + n]) for k in range(3))
-        found[name] = Timed(with_coarser([coarse[0], middle[0], fine[0]]), coarse[1], middle[1])
-    return found
+    with bar(f"{len(jobs)} runs") as show, worker_pool(workers) as pool:
+        done = pool.run(jobs, _run, show)
+    for (name, _), (result, _) in zip(jobs, done, strict=True):
+        if isinstance(result, Failure):
+            raise SimulationError(replace(result, reason=f"{name}: {result.reason}"))
+    thirds = (done[n * len(cases) : (n + 1) * len(cases)] for n in range(3))
+    return {
+        name: Timed(with_coarser([coarse[0], middle[0], fine[0]]), coarse[1], middle[1])
+        for name, fine, middle, coarse in zip(cases, *thirds, strict=True)
+    }
 
 
-def _run(place: int, name: str, scenario: Scenario) -> tuple[Result | Failure, float]:
-    del name
+def _run(place: int, name: str, scenario: Scenario) -> tuple[Any, float]:
+    """The result or failure of a run, and its processor time [s]."""
+    del place, name
     begun = time.process_time()
     result = simulate(scenario, progress=report, throw=False)
     return result, time.process_time() - begun
-
-
-def _good(name: str, result: Result | Failure, seconds: float) -> tuple[Result, float]:
-    if isinstance(result, Failure):
-        raise SimulationError(replace(result, reason=f"{name}: {result.reason}"))
-    return result, seconds
-
-
-def timed(scenario: Scenario) -> float:
-    """Processor time of a run [s]."""
-    return _good("", *_run(0, "", scenario))[1]

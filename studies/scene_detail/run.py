@@ -12,23 +12,14 @@ from studies.common.study import Study, StudyOutcome
 from studies.scene_detail import figures as tables
 from studies.scene_detail import measures, scenes
 from studies.scene_detail.figures import figures
-from studies.scene_detail.measures import MeasuredScene, run_timed
+from studies.scene_detail.measures import run_timed
 from studies.scene_detail.scenes import APART, PLAINEST, UNEQUAL_FULLEST, DetailScene
 from support_exudyn import recommend
 from support_exudyn.simulation.recommend import QUESTIONS, STROKE, UNEQUAL
-from support_exudyn.sweeps.workers import Workers
 
 TABLE = "scene_table.json"
 ORDER = ("unequal", "taken", "combined", "space", "added")  # the longest runs first
 GROUPS = ("added", "taken", "combined", "space")
-
-
-def run(workers: int | Workers) -> dict[str, MeasuredScene]:
-    """All scenes, each at its steps, at half and at a quarter of them, measured."""
-    chosen = scenes.scenes()
-    longest_first = sorted(chosen.values(), key=lambda scene: ORDER.index(scene.group))
-    runs = run_timed({scene.name: scene.scenario for scene in longest_first}, workers)
-    return measures.measure(chosen, runs)
 
 
 def said(chosen: Mapping[str, DetailScene]) -> dict[str, str]:
@@ -45,16 +36,20 @@ def work(chosen: Options) -> StudyOutcome:
 
     The table of the advice is kept as a file, as the package has it in `support_exudyn/simulation/evidence`.
     """
-    measured = run(chosen.workers)
-    tried = measures.table(measured, said({one.scene.name: one.scene for one in measured.values()}))
+    by_name = scenes.scenes()
+    longest_first = sorted(by_name.values(), key=lambda scene: ORDER.index(scene.group))
+    runs = run_timed({scene.name: scene.scenario for scene in longest_first}, chosen.workers)
+    measured = measures.measure(by_name, runs)
+    tried = measures.table(measured, said(by_name))
     tried.save(chosen.out / TABLE)
     sheets = {
         "table_advice": tables.advice_table(tried),
         "table_unequal": tables.unequal_table(measured),
         **{f"table_{group}": tables.change_table(measured, group) for group in GROUPS},
     }
-    pairs = ((one, measured[one.scene.reference]) for one in measured.values() if one.scene.group == "space")
-    of_space = [tables.changes(*pair)[tables.RELATIVE["mean_pin_force"]] for pair in pairs]
+    of_space = [
+        tables.changes(*pair)[tables.RELATIVE["mean_pin_force"]] for pair in tables.of_group(measured, "space")
+    ]
     words = {
         "measured": measured,
         "measures": measures,

@@ -6,18 +6,16 @@ from typing import Any, Literal
 
 from studies.common import paper_machine
 from support_exudyn import (
-    ClearancePin,
     CubicStep,
     IdealPin,
     OwnBody,
-    Pin,
     Scenario,
     SolverSettings,
     cylinders_and_rods,
     reference_support,
 )
 from support_exudyn.simulation.recommend import STROKE, UNEQUAL
-from user_forces import Ambrosio, Frictionless, JournalContact, LankaraniNikravesh
+from user_forces import Ambrosio
 
 CLEARANCE_MM = 1.5
 FRICTION = paper_machine.SLIDING_COEFFICIENT
@@ -84,93 +82,57 @@ class DetailScene:
         return f"{1e3 * stroke:g} mm from {self.begin:g} to {self.end:g} s, run of {self.scenario.duration:g} s"
 
 
-def stroke() -> Scenario:
-    """The plainest scene: a dwell, then a stroke as steep as the paper's."""
-    return Scenario(
-        machine=reference_support(),
-        drive=IN_STEP,
-        duration=DURATION,
-        step=STEP,
-        record_period=STEP,
-        solver=SolverSettings(impact_steps=IMPACT_STEPS, sections=SECTIONS_OF_STRAIGHT),
-        channels=CHANNELS,
-    )
+# --- elements of the model ---
 
-
-def clearance_joint(sliding_coefficient: float) -> ClearancePin:
-    """The paper's pin."""
-    normal = LankaraniNikravesh(
-        stiffness=paper_machine.stiffness(CLEARANCE_MM), restitution=paper_machine.RESTITUTION
-    )
-    friction = Ambrosio(sliding_coefficient=sliding_coefficient) if sliding_coefficient else Frictionless()
-    bearing = paper_machine.bearing(CLEARANCE_MM)
-    return ClearancePin(contact=JournalContact(bearing=bearing, normal=normal, friction=friction))
-
-
-SMOOTH, ROUGH = clearance_joint(0.0), clearance_joint(FRICTION)
+SMOOTH, ROUGH = (
+    paper_machine.clearance_joint(CLEARANCE_MM, friction, law=paper_machine.PAPERS_LAW)
+    for friction in (0.0, FRICTION)
+)
 RUBBING = IdealPin(  # with friction, as thick as the paper's
     friction=Ambrosio(sliding_coefficient=FRICTION), radius=paper_machine.bearing(CLEARANCE_MM).bore_radius
 )
 OIL = paper_machine.oil_columns()
+HEAVY, HEAVY_ON_OIL = cylinders_and_rods(), cylinders_and_rods(OIL["front_column"])
 ON_JACK = {"tail_beam": OwnBody(jack=paper_machine.JACK)}
+PINS = tuple(reference_support().linkage().pins)
+ALL_SMOOTH, ALL_ROUGH, ALL_RUBBING = (dict.fromkeys(PINS, pin) for pin in (SMOOTH, ROUGH, RUBBING))
+FULL = {"pins": ALL_ROUGH, "actuators": HEAVY_ON_OIL, "parts": ON_JACK}  # fields of the fullest scene
+Elements = dict[str, dict[str, Any]]  # fields that differ from those of the reference, by name
+ADDED: Elements = {  # to the plainest scene
+    "clearance, rear pin": {"pins": {REAR: SMOOTH}},
+    "clearance, 2 pins": {"pins": dict.fromkeys(TWO, SMOOTH)},
+    "clearance, 5 pins": {"pins": ALL_SMOOTH},
+    "friction, rear pin": {"pins": {REAR: RUBBING}},
+    "friction, 5 pins": {"pins": ALL_RUBBING},
+    "clearance and friction, rear pin": {"pins": {REAR: ROUGH}},
+    "mass of columns": {"actuators": HEAVY},
+    "oil in columns": {"actuators": OIL},
+    "mass and oil of columns": {"actuators": HEAVY_ON_OIL},
+    "tail beam, rigid jack": {"parts": {"tail_beam": OwnBody()}},
+    "tail beam, oil jack": {"parts": ON_JACK},
+    "space": {"dimensions": 3},
+}
+TAKEN: Elements = {  # from the fullest scene
+    "friction": {"pins": ALL_SMOOTH},
+    "clearance": {"pins": ALL_RUBBING},
+    "clearance, but in rear pin": {"pins": ALL_RUBBING | {REAR: ROUGH}},
+    "clearance, but in 2 pins": {"pins": ALL_RUBBING | dict.fromkeys(TWO, ROUGH)},
+    "clearance and friction": {"pins": {}},
+    "mass of columns": {"actuators": OIL},
+    "oil in columns": {"actuators": HEAVY},
+    "mass and oil of columns": {"actuators": {}},
+    "oil of tail beam's jack": {"parts": {"tail_beam": OwnBody()}},
+    "tail beam": {"parts": {}},
+    "concentric start": {"start": "settled"},
+}
+COMBINED: Elements = {  # cheap combinations, added to the plainest scene
+    "5 pins": {"pins": ALL_ROUGH},
+    "5 pins, settled": {"pins": ALL_ROUGH, "start": "settled"},
+    "rear pin, settled": {"pins": {REAR: ROUGH}, "start": "settled"},
+}
 
 
-def everywhere(pin: Pin) -> dict[str, Pin]:
-    """The pin in all places of the linkage."""
-    return dict.fromkeys(reference_support().linkage().pins, pin)
-
-
-def fullest(plain: Scenario) -> Scenario:
-    """Clearance and friction in all pins, columns of two bodies on oil, the tail beam on an oil jack."""
-    heavy = cylinders_and_rods(OIL["front_column"])
-    return replace(plain, pins=everywhere(ROUGH), actuators=heavy, parts=ON_JACK)
-
-
-Elements = dict[str, dict[str, Any]]  # what differs from the reference, by name
-
-
-def added() -> Elements:
-    """What is added to the plainest scene."""
-    return {
-        "clearance, rear pin": {"pins": {REAR: SMOOTH}},
-        "clearance, 2 pins": {"pins": dict.fromkeys(TWO, SMOOTH)},
-        "clearance, 5 pins": {"pins": everywhere(SMOOTH)},
-        "friction, rear pin": {"pins": {REAR: RUBBING}},
-        "friction, 5 pins": {"pins": everywhere(RUBBING)},
-        "clearance and friction, rear pin": {"pins": {REAR: ROUGH}},
-        "mass of columns": {"actuators": cylinders_and_rods()},
-        "oil in columns": {"actuators": OIL},
-        "mass and oil of columns": {"actuators": cylinders_and_rods(OIL["front_column"])},
-        "tail beam, rigid jack": {"parts": {"tail_beam": OwnBody()}},
-        "tail beam, oil jack": {"parts": ON_JACK},
-        "space": {"dimensions": 3},
-    }
-
-
-def taken() -> Elements:
-    """What is taken from the fullest scene."""
-    return {
-        "friction": {"pins": everywhere(SMOOTH)},
-        "clearance": {"pins": everywhere(RUBBING)},
-        "clearance, but in rear pin": {"pins": everywhere(RUBBING) | {REAR: ROUGH}},
-        "clearance, but in 2 pins": {"pins": everywhere(RUBBING) | dict.fromkeys(TWO, ROUGH)},
-        "clearance and friction": {"pins": {}},
-        "mass of columns": {"actuators": OIL},
-        "oil in columns": {"actuators": cylinders_and_rods()},
-        "mass and oil of columns": {"actuators": {}},
-        "oil of tail beam's jack": {"parts": {"tail_beam": OwnBody()}},
-        "tail beam": {"parts": {}},
-        "concentric start": {"start": "settled"},
-    }
-
-
-def combined() -> Elements:
-    """Cheap combinations of elements, added to the plainest scene."""
-    return {
-        "5 pins": {"pins": everywhere(ROUGH)},
-        "5 pins, settled": {"pins": everywhere(ROUGH), "start": "settled"},
-        "rear pin, settled": {"pins": {REAR: ROUGH}, "start": "settled"},
-    }
+# --- scenes ---
 
 
 def of_strokes() -> Iterator[DetailScene]:
@@ -179,17 +141,25 @@ def of_strokes() -> Iterator[DetailScene]:
     def scene(name: str, group: Group, reference: str, base: Scenario, **fields: Any) -> DetailScene:
         return DetailScene(name, group, reference, STROKE, replace(base, **fields))
 
-    plain = stroke()
-    full = fullest(plain)
+    plain = Scenario(  # a dwell, then a stroke as steep as the paper's
+        machine=reference_support(),
+        drive=IN_STEP,
+        duration=DURATION,
+        step=STEP,
+        record_period=STEP,
+        solver=SolverSettings(impact_steps=IMPACT_STEPS, sections=SECTIONS_OF_STRAIGHT),
+        channels=CHANNELS,
+    )
+    full = replace(plain, **FULL)
     yield scene(PLAINEST, "added", "", plain)
-    for name, fields in added().items():
+    for name, fields in ADDED.items():
         yield scene(f"{PLAINEST} + {name}", "added", PLAINEST, plain, **fields)
     settled = f"{WITH_CLEARANCE} + settled start"
     yield scene(settled, "added", WITH_CLEARANCE, plain, pins={REAR: SMOOTH}, start="settled")
     yield scene(FULLEST, "taken", "", full)
-    for name, fields in taken().items():
+    for name, fields in TAKEN.items():
         yield scene(f"{FULLEST} - {name}", "taken", FULLEST, full, **fields)
-    for name, fields in combined().items():
+    for name, fields in COMBINED.items():
         yield scene(f"{PAPERS.removesuffix('rear pin')}{name}", "combined", FULLEST, plain, **fields)
     for name, planar, pin in (
         (CLEARANCE_IN_SPACE, WITH_CLEARANCE, SMOOTH), (PAPERS_IN_SPACE, PAPERS, ROUGH),
