@@ -12,7 +12,7 @@ from studies.common.paper_machine import CLEARANCE_MM
 from studies.common.rise import DEGREES, Measure, Versus, Watched
 from studies.common.subject import Subject, without_clearance
 from studies.which_pin.closed_form import posture_numbers
-from support_exudyn import ClearancePin, CubicStep, Result, Scenario, SolverSettings
+from support_exudyn import CubicStep, Result, Scenario, SolverSettings
 from support_exudyn.machines.four_bar_shield import PINS
 from support_exudyn.mechanics.channels import ALL_CHANNELS
 from support_exudyn.simulation.automatic_settings import cheapest, settings_for
@@ -104,11 +104,6 @@ class PinPlan:
         return {title: name for title, name in every.items() if self.has_tip or name != SHIFT}
 
     @property
-    def clearance_mm(self) -> float:
-        """The radial clearance of the pins [mm]."""
-        return self.subject.clearance_mm
-
-    @property
     def frictions(self) -> tuple[float, float]:
         """Coefficients in the clearance pins."""
         return self.subject.friction, 0.0
@@ -116,24 +111,20 @@ class PinPlan:
     @property
     def conditions(self) -> tuple[tuple[float, float], ...]:
         """Friction and clearance [mm] of the single pins."""
-        own = tuple((friction, self.clearance_mm) for friction in self.frictions)
+        own = tuple((friction, self.subject.clearance_mm) for friction in self.frictions)
         return CONDITIONS if self.subject.is_paper else own
 
     def case_name(self, pins: Sequence[str], friction: float, clearance_mm: float | None = None) -> str:
         """What a case is called, see `case_name`."""
-        size = self.clearance_mm if clearance_mm is None else clearance_mm
+        size = self.subject.clearance_mm if clearance_mm is None else clearance_mm
         named = [self.everything] if len(pins) == len(self.pins) else pins
-        return case_name(named, friction, size, self.clearance_mm)
+        return case_name(named, friction, size, self.subject.clearance_mm)
 
     def alone(
         self, found: Found, name: str, friction: float, clearance_mm: float | None = None
     ) -> dict[str, Number]:
         """A number of each pin alone, by the name of the pin."""
         return {pin: found[name, self.case_name((pin,), friction, clearance_mm)] for pin in self.pins}
-
-    def pin(self, friction: float, clearance_mm: float) -> ClearancePin:
-        """The pin that is put into every place: that of all studies of the machine."""
-        return self.subject.clearance_pin(clearance_mm, friction)
 
     @cached_property
     def loose(self) -> Mapping[str, tuple[Sequence[str], float, float]]:
@@ -142,7 +133,7 @@ class PinPlan:
         Each pin alone and all together, with friction and without; of the paper's machine also pairs, and
         single pins with less friction and with less clearance.
         """
-        size = self.clearance_mm
+        size = self.subject.clearance_mm
         chosen: list[tuple[Sequence[str], float, float]] = [(self.pins, mu, size) for mu in self.frictions]
         chosen += [((pin,), *how) for how in self.conditions for pin in self.pins]
         if self.subject.is_paper:
@@ -165,29 +156,27 @@ class PinPlan:
         """
         period = min(self.motion.recorded_every, STEP)
         if self.watched.window < 2.0 * period:
-            times = f"{self.watched.start:g} to {self.watched.end:g} s"
-            least = 40.0 * period
             raise InputError(
-                f"motion from {times}, a record every {period:g} s: allowed: longer than {least:g} s, to tell "
-                "fluctuations from the trend, or more records"
+                f"motion from {self.watched.start:g} to {self.watched.end:g} s, a record every {period:g} s: "
+                f"allowed: longer than {40.0 * period:g} s, to tell fluctuations from the trend, or more "
+                "records"
             )
         motion = replace(self.motion, formulation="exudyn")
         start = motion.start if motion.unloaded.cranks else "settled"
 
         def clearance(pins: Sequence[str], friction: float, clearance_mm: float) -> Scenario:
-            loose = dict.fromkeys(pins, self.pin(friction, clearance_mm))
+            loose = dict.fromkeys(pins, self.subject.clearance_pin(clearance_mm, friction))
             case = replace(motion, pins=loose, solver=SETTINGS, start=start)
             return case if self.subject.is_paper else settings_for(case, OWN_GOAL)
 
         cases = {name: clearance(*how) for name, how in self.loose.items()}
         ideal = {self.ideal_name(*how[:2]): how for how in self.loose.values()}
-        return cases | {name: self._ideal(*how) for name, how in ideal.items()}
-
-    def _ideal(self, pins: Sequence[str], friction: float, clearance_mm: float) -> Scenario:
-        pin = without_clearance(self.pin(friction, clearance_mm))
-        motion = replace(self.motion, pins=dict.fromkeys(pins, pin) if friction else {})
-        motion = replace(motion, formulation="auto", solver=SolverSettings())
-        return replace(motion, formulation=cheapest(motion))
+        for name, (pins, friction, clearance_mm) in ideal.items():
+            pin = without_clearance(self.subject.clearance_pin(clearance_mm, friction))
+            case = replace(self.motion, pins=dict.fromkeys(pins, pin) if friction else {})
+            case = replace(case, formulation="auto", solver=SolverSettings())
+            cases[name] = replace(case, formulation=cheapest(case))
+        return cases
 
     # --- measures ---
 
@@ -217,10 +206,11 @@ class PinPlan:
             all_lost = run["energy.damping_loss"] + run["energy.friction_loss"]
             return float(np.diff(all_lost[watched.in_rise(run)][[0, -1]])[0])
 
-        def change_of(name: str) -> Versus:
-            return Versus(lambda run, ideal: changes(run, ideal)[name])
+        def largest_shift(run: Result, ideal: Result) -> float:
+            along, up = (watched.departure(run, ideal, f"{TIP}.{axis}") for axis in "xy")
+            return 1e3 * float(np.hypot(along, up).max())
 
-        found: dict[str, tuple[str, Measure | Versus]] = {
+        measures: dict[str, tuple[str, Measure | Versus]] = {
             FORCES: ("%", Versus(lambda run, ideal: max(map(abs, changes(run, ideal).values())))),
             OVER_IDEAL: ("1", over_ideal),
             SHAKING: ("N", all_pins),
@@ -229,28 +219,22 @@ class PinPlan:
         }
         for body in self.shaken:
             fluctuation = watched.fluctuation_of(f"{body}.angular_acceleration", DEGREES)
-            found[f"rms_{body}_angular_acceleration"] = ("deg/s^2", fluctuation)
+            measures[f"rms_{body}_angular_acceleration"] = ("deg/s^2", fluctuation)
         for channel, name in forces.items():
-            found[f"mean_force_{name}"] = ("N", watched.mean_of(channel))
-            found[f"change_of_mean_force_{name}"] = ("%", change_of(name))
-            found[f"rms_force_{name}"] = ("N", watched.fluctuation_of(channel))
-        return found | (self._of_posture if self.has_tip else {})
-
-    @property
-    def _of_posture(self) -> dict[str, tuple[str, Measure | Versus]]:
-        watched = self.watched
-
-        def largest(run: Result, ideal: Result) -> float:
-            along, up = (watched.departure(run, ideal, f"{TIP}.{axis}") for axis in "xy")
-            return 1e3 * float(np.hypot(along, up).max())
-
-        return {
+            measures[f"mean_force_{name}"] = ("N", watched.mean_of(channel))
+            measures[f"change_of_mean_force_{name}"] = (
+                "%",
+                Versus(lambda run, ideal, name=name: changes(run, ideal)[name]),  # type: ignore[misc]
+            )
+            measures[f"rms_force_{name}"] = ("N", watched.fluctuation_of(channel))
+        of_posture: dict[str, tuple[str, Measure | Versus]] = {
             SHIFT: ("mm", watched.shift_of(f"{TIP}.x", 1e3)),
             "mean_tip_shift_up": ("mm", watched.shift_of(f"{TIP}.y", 1e3)),
-            "largest_tip_shift": ("mm", Versus(largest)),
+            "largest_tip_shift": ("mm", Versus(largest_shift)),
             "mean_canopy_tilt": ("deg", watched.shift_of(f"{ROOF}.angle", DEGREES)),
             "rms_tip_forward": ("mm", watched.fluctuation_of(f"{TIP}.x", 1e3)),
         }
+        return measures | (of_posture if self.has_tip else {})
 
     def numbers(self, results: Mapping[str, Result]) -> list[Number]:
         """All numbers of the runs, and those of the closed form beside them."""

@@ -14,7 +14,6 @@ belong together). First order: the way is small against the links.
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from functools import cache
 from typing import NamedTuple
 
@@ -27,7 +26,6 @@ from support_exudyn import (
     ClearancePin,
     CubicStep,
     Drive,
-    Held,
     HydraulicSupport,
     Scenario,
     Steady,
@@ -58,29 +56,31 @@ class Press(NamedTuple):
     force: Vector2
 
 
-@dataclass(frozen=True)
-class Stand:
+class Stand(NamedTuple):
     """The ideal support at an instant of a stroke.
 
     kinetics: its matrices. position, speed, acceleration: of all coordinates since the start [m], [rad], and
-    their rates, shape (12,).
+    their rates, shape (12,). constraints: C, shape (12, 12): two rows a pin, second body against the first,
+    then one a column.
     """
 
     kinetics: Kinetics
     position: Matrix
     speed: Matrix
     acceleration: Matrix
+    constraints: Matrix
 
-    def constraints(self) -> Matrix:
-        """C, shape (12, 12): two rows a pin, second body against the first, then one a column."""
-        return self.kinetics.rows(self.position)
+    def rows(self, name: str) -> slice:
+        """The rows of a pin."""
+        first = 2 * list(self.kinetics.linkage.pins).index(name)
+        return slice(first, first + 2)
 
-    def load(self, presses: Sequence[Press]) -> Matrix:
-        """W - M a and what presses besides [N], [N m], shape (12,)."""
-        force = self.kinetics.weight(GRAVITY) - self.kinetics.mass() * self.acceleration
-        for press in presses:
-            force = force + np.array(press.force) @ self.kinetics.point(self.position, *press[:2])[1]
-        return force
+    def friction_angle(self, name: str, pin: ClearancePin, size: float) -> float:
+        """Angle of friction [rad], against the turning, under a load [N]; for laws without a state."""
+        place = self.kinetics.linkage.pins[name]
+        first, second = (self.kinetics.turning(self.speed.size, body) for body in (place.first, place.second))
+        slip = float((second - first) @ self.speed) * pin.contact.bearing.bore_radius
+        return math.atan(pin.contact.friction(slip, size) / size)
 
 
 def stands(support: HydraulicSupport, drive: Drive, times: Sequence[float]) -> list[Stand]:
@@ -96,17 +96,12 @@ def stands(support: HydraulicSupport, drive: Drive, times: Sequence[float]) -> l
             position = position + np.linalg.solve(closed.rows(position), off)
         return position
 
-    found = []
+    along = []
     for t in times:
         before, position, after = (close(position, t + beside) for beside in (-BESIDE, 0.0, BESIDE))
-        speed = (after - before) / (2.0 * BESIDE)
-        found.append(Stand(closed, position, speed, (after - 2.0 * position + before) / BESIDE**2))
-    return found
-
-
-def standing(support: HydraulicSupport) -> Stand:
-    """The support at rest in its start posture."""
-    return stands(support, Held(), [0.0])[0]
+        speed, change = (after - before) / (2.0 * BESIDE), after - 2.0 * position + before
+        along.append(Stand(closed, position, speed, change / BESIDE**2, closed.rows(position)))
+    return along
 
 
 def forces(stand: Stand, rubbing: Mapping[str, ClearancePin], presses: Sequence[Press] = ()) -> Matrix:
@@ -114,77 +109,53 @@ def forces(stand: Stand, rubbing: Mapping[str, ClearancePin], presses: Sequence[
 
     rubbing: pins whose friction counts, by name; it turns the bodies with a moment of the journal's radius.
     """
-    constraints, load = stand.constraints(), stand.load(presses)
-    found, moments = np.zeros_like(load), np.zeros_like(load)
+    kinetics = stand.kinetics
+    load = kinetics.weight(GRAVITY) - kinetics.mass() * stand.acceleration
+    for press in presses:
+        load = load + np.array(press.force) @ kinetics.point(stand.position, *press[:2])[1]
+    carried, moments = np.zeros_like(load), np.zeros_like(load)
     for _ in range(ROUNDS if rubbing else 1):
-        found[:] = np.linalg.solve(constraints.T, load + moments)
+        carried[:] = np.linalg.solve(stand.constraints.T, load + moments)
         moments[:] = 0.0
         for name, pin in rubbing.items():
-            size = float(np.hypot(*found[_rows(stand, name)]))
-            angle = _friction_angle(stand, name, pin, size)
-            _turn(stand, name, pin.contact.bearing.bore_radius * size * math.sin(angle), moments)
-    return found
-
-
-def openings(
-    stand: Stand, pins: Mapping[str, ClearancePin], presses: Sequence[Press] = ()
-) -> dict[str, Matrix]:
-    """For each clearance pin where its journal lies from the bore's centre [m], shape (2,); bore on the first
-    body.
-
-    Its distance is clearance and the depth at which the law holds the load at rest.
-    """
-    carried = forces(stand, pins, presses)
-    found: dict[str, Matrix] = {}
-    for name, pin in pins.items():
-        along = carried[_rows(stand, name)]
-        size = float(np.hypot(*along))
-        climbed = _friction_angle(stand, name, pin, size)
-        c, s = math.cos(climbed), math.sin(climbed)
-        normal = np.array([[c, -s], [s, c]]) @ along / size
-        depth = pin.contact.normal.resting_depth(size * math.cos(climbed))
-        found[name] = (pin.contact.bearing.clearance + depth) * normal
-    return found
+            size = float(np.hypot(*carried[stand.rows(name)]))
+            angle = stand.friction_angle(name, pin, size)
+            moment = pin.contact.bearing.bore_radius * size * math.sin(angle)
+            place = kinetics.linkage.pins[name]
+            for body, sign in ((place.second, 1.0), (place.first, -1.0)):
+                if body != GROUND:
+                    moments[kinetics.first(body) + 2] += sign * moment
+    return carried
 
 
 def influence(stand: Stand, name: str) -> Matrix:
     """How tip and tilt of the canopy follow the opening of a pin, shape (3, 2) [1], [1], [rad/m]."""
-    ways = np.linalg.solve(stand.constraints(), np.eye(stand.position.size)[:, _rows(stand, name)])
+    ways = np.linalg.solve(stand.constraints, np.eye(stand.position.size)[:, stand.rows(name)])
     tip = stand.kinetics.linkage.points["tip"].point
     at_tip = stand.kinetics.point(stand.position, "canopy", tip)[1] @ ways
     return np.vstack([at_tip, ways[stand.kinetics.first("canopy") + 2]])
 
 
 def shifts(stand: Stand, pins: Mapping[str, ClearancePin], presses: Sequence[Press] = ()) -> dict[str, Matrix]:
-    """What each clearance pin moves the tip forward and up [m] and tilts the canopy [rad] by, (3,) each."""
-    return {name: influence(stand, name) @ opening for name, opening in openings(stand, pins, presses).items()}
+    """What each clearance pin moves the tip forward and up [m] and tilts the canopy [rad] by, (3,) each.
+
+    A journal lies from the bore's centre by clearance and the depth at which the law holds the load at rest;
+    bore on the first body.
+    """
+    carried = forces(stand, pins, presses)
+    moved = {}
+    for name, pin in pins.items():
+        along = carried[stand.rows(name)]
+        size = float(np.hypot(*along))
+        climbed = stand.friction_angle(name, pin, size)
+        c, s = math.cos(climbed), math.sin(climbed)
+        normal = np.array([[c, -s], [s, c]]) @ along / size
+        depth = pin.contact.normal.resting_depth(size * math.cos(climbed))
+        moved[name] = influence(stand, name) @ ((pin.contact.bearing.clearance + depth) * normal)
+    return moved
 
 
-def _rows(stand: Stand, name: str) -> slice:
-    first = 2 * list(stand.kinetics.linkage.pins).index(name)
-    return slice(first, first + 2)
-
-
-def _friction_angle(stand: Stand, name: str, pin: ClearancePin, size: float) -> float:
-    """Angle of friction [rad], against the turning, under a load [N]; for laws without a state."""
-    slip = _spin(stand, name) * pin.contact.bearing.bore_radius
-    return math.atan(pin.contact.friction(slip, size) / size)
-
-
-def _spin(stand: Stand, name: str) -> float:
-    """Angular velocity of a pin's second body against its first [rad/s]."""
-    place = stand.kinetics.linkage.pins[name]
-    first, second = (stand.kinetics.turning(stand.speed.size, body) for body in (place.first, place.second))
-    return float((second - first) @ stand.speed)
-
-
-def _turn(stand: Stand, name: str, moment: float, moments: Matrix) -> None:
-    """Add a moment [N m] on a pin's second body, and its opposite on the first."""
-    place = stand.kinetics.linkage.pins[name]
-    for body, sign in ((place.second, 1.0), (place.first, -1.0)):
-        if body != GROUND:
-            moments[stand.kinetics.first(body) + 2] += sign * moment
-
+# --- the rise, and other loads ---
 
 INSTANTS = 41  # of the rise; twice as many change its means by 1e-5
 PLACES = 11  # of the stroke
@@ -198,13 +169,9 @@ def _rise() -> tuple[Stand, ...]:
 
 
 def mean_shift(pins: Mapping[str, ClearancePin]) -> Matrix:
-    """Mean shift over the rise, of clearance pins together:
-
-    tip forward and up [m], canopy's tilt [rad], (3,).
-    """
-    found = np.array([sum(shifts(stand, pins).values()) for stand in _rise()])
-    inner = found[1:-1].sum(axis=0) + 0.5 * (found[0] + found[-1])  # the rule of trapezoids
-    mean: Matrix = inner / (INSTANTS - 1)
+    """Mean shift over the rise of all these pins: tip forward and up [m], canopy's tilt [rad], (3,)."""
+    each = np.array([sum(shifts(stand, pins).values()) for stand in _rise()])
+    mean: Matrix = np.trapezoid(each, axis=0) / (INSTANTS - 1)
     return mean
 
 
@@ -218,8 +185,7 @@ def posture_numbers(case: str, scenario: Scenario) -> list[Number]:
     ]
 
 
-@dataclass(frozen=True)
-class UnderLoad:
+class UnderLoad(NamedTuple):
     """What each pin moves the tip by under a load, along the stroke.
 
     extension: of the columns [m], (n,). shift: by pin, forward [m], (n,). thrust: least of both columns on the
@@ -230,33 +196,31 @@ class UnderLoad:
     shift: Mapping[str, Matrix]
     thrust: float
 
-    def mean(self, name: str) -> float:
-        """Mean along the stroke [m]."""
-        return float(self.shift[name].mean())
+    def means(self) -> dict[str, float]:
+        """Mean along the stroke [m], by pin."""
+        return {name: float(shift.mean()) for name, shift in self.shift.items()}
 
 
 def loads(pin: ClearancePin) -> dict[str, UnderLoad]:
     """A pin without friction in all five places, under several loads, at rest."""
     support = reference_support()
     start = support.start()
-    middle = tuple(
-        0.5 * (a + b) for a, b in zip(start.ends["front_head"], start.ends["rear_head"], strict=True)
-    )
-    over = {"columns": (middle[0], middle[1]), "hinge": start.hinge, "tip": start.tip}
+    (ax, ay), (bx, by) = start.ends["front_head"], start.ends["rear_head"]
+    columns = 0.5 * (ax + bx), 0.5 * (ay + by)
     presses = {
         "weight alone": (),
-        "1 MN down over the columns": (Press("canopy", over["columns"], (0.0, -1e6)),),
-        "100 kN down over the hinge": (Press("canopy", over["hinge"], (0.0, -1e5)),),
-        "100 kN down on the tip": (Press("canopy", over["tip"], (0.0, -1e5)),),
-        "100 kN to the rear": (Press("canopy", over["columns"], (-1e5, 0.0)),),
-        "100 kN forward": (Press("canopy", over["columns"], (1e5, 0.0)),),
+        "1 MN down over the columns": (Press("canopy", columns, (0.0, -1e6)),),
+        "100 kN down over the hinge": (Press("canopy", start.hinge, (0.0, -1e5)),),
+        "100 kN down on the tip": (Press("canopy", start.tip, (0.0, -1e5)),),
+        "100 kN to the rear": (Press("canopy", columns, (-1e5, 0.0)),),
+        "100 kN forward": (Press("canopy", columns, (1e5, 0.0)),),
     }
     extension = np.linspace(0.0, STROKE, PLACES)
     along = stands(support, Steady(rate=CREEP), (extension / CREEP).tolist())
-    pins, found = dict.fromkeys(PINS, pin), {}
+    pins, under = dict.fromkeys(PINS, pin), {}
     for load, press in presses.items():
         moved = [shifts(stand, pins, press) for stand in along]
         thrust = min(-float(forces(stand, {}, press)[2 * len(PINS) :].max()) for stand in along)
         shift = {name: np.array([one[name][TIP_X] for one in moved]) for name in PINS}
-        found[load] = UnderLoad(extension, shift, thrust)
-    return found
+        under[load] = UnderLoad(extension, shift, thrust)
+    return under

@@ -33,13 +33,10 @@ def figures(plan: PinPlan, found: Found, under_loads: Mapping[str, UnderLoad]) -
     }
 
 
-def _cases(plan: PinPlan) -> tuple[tuple[str, ...], ...]:
-    """The clearance pins of what is drawn: each alone, and all together."""
-    return *((pin,) for pin in plan.pins), plan.pins
-
-
-def _names(plan: PinPlan) -> list[str]:
-    return [*plan.pins, plan.everything]
+def _cases(plan: PinPlan) -> dict[str, tuple[str, ...]]:
+    """The clearance pins of what is drawn, each alone and all together, by their names in lines."""
+    every = {pin: (pin,) for pin in plan.pins} | {plan.everything: plan.pins}
+    return {name.replace("_", "\n").replace(" ", "\n"): pins for name, pins in every.items()}
 
 
 def _friction(friction: float) -> str:
@@ -52,17 +49,17 @@ def shift_figure(plan: PinPlan, found: Found) -> Figure:
     places = np.arange(len(plan.pins) + 1)
     looks = ((-0.2, style.WITH_CLEARANCE, None), (0.2, "#cccccc", HATCH))
     for friction, (side, colour, hatch) in zip(plan.frictions, looks, strict=True):
-        row = [found[SHIFT, plan.case_name(pins, friction)] for pins in _cases(plan)]
+        row = [found[SHIFT, plan.case_name(pins, friction)] for pins in _cases(plan).values()]
         bars.barh(
             places + side, [n.value for n in row], 0.4, color=colour, hatch=hatch, edgecolor=style.IDEAL,
             xerr=[n.numerical_error for n in row], capsize=2, error_kw={"lw": 0.8}, lw=0.5,
             label=_friction(friction), zorder=3,
         )  # fmt: skip
-        names = [(CLOSED_FORM, plan.case_name(pins, friction)) for pins in _cases(plan)]
+        names = [(CLOSED_FORM, plan.case_name(pins, friction)) for pins in _cases(plan).values()]
         if names[0] in found:
             values, label = [found[name].value for name in names], "virtual work" if friction else None
             bars.plot(values, places + side, "x", color=style.IDEAL, ms=4, mew=1.0, label=label, zorder=4)
-    bars.set_yticks(places, [_broken(name) for name in _names(plan)], fontsize=7)
+    bars.set_yticks(places, [*_cases(plan)], fontsize=7)
     bars.invert_yaxis()
     bars.grid(visible=False, axis="y")
     bars.axvline(0.0, color=style.IDEAL, lw=0.6)
@@ -99,10 +96,6 @@ def _end_to_end(plan: PinPlan, axes: Axes, found: Found) -> None:
     axes.set_ylim(low - 0.1 * (high - low), high + 0.9 * (high - low))
 
 
-def _broken(name: str) -> str:
-    return name.replace("_", "\n").replace(" ", "\n")
-
-
 def shaking_figure(plan: PinPlan, found: Found) -> Figure:
     """RMS fluctuations with their errors, as points on logarithmic scales."""
     bodies = dict.fromkeys((plan.subject.watched.body, plan.shaken[-1]))
@@ -115,14 +108,14 @@ def shaking_figure(plan: PinPlan, found: Found) -> Figure:
     looks = ((-0.1, style.WITH_CLEARANCE, "o"), (0.1, PLAIN, "s"))
     for axes, (name, (scale, label)) in zip(panels.flat, shown.items(), strict=True):
         for friction, (side, colour, mark) in zip(plan.frictions, looks, strict=True):
-            row = [found[name, plan.case_name(pins, friction)] for pins in _cases(plan)]
+            row = [found[name, plan.case_name(pins, friction)] for pins in _cases(plan).values()]
             look: dict[str, Any] = {"fmt": mark, "color": colour, "ms": 5, "capsize": 3, "lw": 1.0}
             error_bars(axes, places + side, row, scale, label=_friction(friction), **look)
         ideal = scale * found[name, plan.ideal_name(plan.pins, plan.frictions[0])].value
         axes.axhline(ideal, color=style.IDEAL, ls=(0, (4, 2)), label="ideal pins")
         axes.set_yscale("log")
         axes.set_ylabel(label)
-        axes.set_xticks(places, [_broken(name) for name in _names(plan)], fontsize=7)
+        axes.set_xticks(places, [*_cases(plan)], fontsize=7)
     drawing.align_ylabels(panels[:, 0])
     return finish(drawing, panels, 3)
 

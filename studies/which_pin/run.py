@@ -154,9 +154,8 @@ def closed_form_tables(found: Found, under_loads: Mapping[str, UnderLoad]) -> di
     ]
     rows = []
     for name, under in under_loads.items():
-        means = {pin: under.mean(pin) for pin in PINS}
-        cells = (f"{1e3 * mean:.2f}" for mean in means.values())
-        rows.append((name, *cells, f"{under.thrust / 1e3:.0f}", in_order(means)))
+        cells = (f"{1e3 * mean:.2f}" for mean in under.means().values())
+        rows.append((name, *cells, f"{under.thrust / 1e3:.0f}", in_order(under.means())))
     header = ("load besides the weight", *PINS, "least column thrust [kN]", "order")
     return {
         "table_closed_form": text_table(("case", "run [mm]", "closed form [mm]", "run is off by"), shifts),
@@ -184,7 +183,9 @@ def work(chosen: Options) -> StudyOutcome:
     """The motion with clearance pins; of the paper's support also the closed form of where it stands."""
     plan = PinPlan(chosen.subject)
     results = run_with_errors(plan.scenarios, chosen)
-    under_loads = loads(plan.pin(0.0, plan.clearance_mm)) if plan.subject.is_paper else {}
+    under_loads = (
+        loads(plan.subject.clearance_pin(plan.subject.clearance_mm, 0.0)) if plan.subject.is_paper else {}
+    )
     numbers = plan.numbers(results)
     found = by_case(numbers)
     conditions = condition_table(plan, found)
@@ -194,7 +195,7 @@ def work(chosen: Options) -> StudyOutcome:
         **(closed_form_tables(found, under_loads) if plan.subject.is_paper else {}),
         "table_conditions": conditions,
     }
-    means = {name: {pin: under.mean(pin) for pin in PINS} for name, under in under_loads.items()}
+    means = {name: under.means() for name, under in under_loads.items()}
     words = {
         "cases": cases,
         "plan": plan,

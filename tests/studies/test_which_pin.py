@@ -14,7 +14,7 @@ from studies.which_pin import cases as which_pin_cases
 from studies.which_pin import closed_form as clearance
 from studies.which_pin.closed_form import loads, mean_shift
 from studies.which_pin.run import in_order
-from support_exudyn import ClearancePin, Result, SolverSettings, reference_support, simulate
+from support_exudyn import ClearancePin, Held, Result, SolverSettings, reference_support, simulate
 from support_exudyn.mechanics.postures import eccentric
 from tests.studies.forms import ONLY_WHOLE, Numbers, numbers_of, results
 from user_forces import Ambrosio, Exact, Hertz, JournalBearing, JournalContact, KelvinVoigt, Threlfall
@@ -83,7 +83,7 @@ def test_friction_makes_the_shaking_and_hardly_moves_the_tip(numbers: Numbers) -
 
 
 def test_influence_is_that_of_the_linkage_laid_out_anew() -> None:
-    stand = clearance.standing(SUPPORT)
+    (stand,) = clearance.stands(SUPPORT, Held(), [0.0])
     for name in PINS:
         for axis in (0, 1):
             opening = [0.0, 0.0]
@@ -96,12 +96,12 @@ def test_influence_is_that_of_the_linkage_laid_out_anew() -> None:
 
 def test_a_roof_turns_the_shift_around() -> None:
     under = loads(paper_subject().clearance_pin(1.5, 0.0))
-    whole = {name: sum(one.mean(pin) for pin in PINS) for name, one in under.items()}
+    whole = {name: sum(one.means().values()) for name, one in under.items()}
     # the weight of links and shield leans the four-bar to the rear, what presses on the canopy in front pushes
     # it forward: -17 and +19 mm
     assert whole["weight alone"] < -0.015
     assert whole["1 MN down over the columns"] > 0.015
-    orders = {in_order({pin: one.mean(pin) for pin in PINS}) for one in under.values()}
+    orders = {in_order(one.means()) for one in under.values()}
     assert orders == {"front_base = front_shield > rear_base = rear_shield > shield_canopy"}
 
 
