@@ -10,7 +10,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from itertools import product
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -18,7 +18,7 @@ from matplotlib.figure import Figure
 from studies.common.numbers import Found, Number, by_case, cell, measured
 from studies.common.options import Options
 from studies.common.panels import finish, grid
-from studies.common.rise import Mask, MeasuredRun, Series, between
+from studies.common.rise import MeasuredRun, Series, between
 from studies.common.runs import run_cases
 from studies.common.study import Study, StudyOutcome
 from studies.common.support_legs import PAIRS, legs_data, loose_pins, support, tight_pins
@@ -111,64 +111,48 @@ class PushedSupport:
         )
 
 
-def cases() -> list[PushedSupport]:
-    """All cases; without friction the ideal pins, and the reference support under the middle roof load."""
-    found = [
-        PushedSupport(machine, size, share, FRICTION)
-        for machine in MACHINES
-        for share in ROOF_SHARES
-        for size in CLEARANCES_MM
-    ]
-    smooth = [PushedSupport(MACHINES[0], size, ROOF_SHARES[1], 0.0) for size in CLEARANCES_MM if size]
-    tight = [PushedSupport(machine, 0.0, share, 0.0) for machine in MACHINES for share in ROOF_SHARES]
-    return [*found, *smooth, *tight, SLOW]
-
-
 FAST, SLOW = (PushedSupport("reference", 0.5, MIDDLE, FRICTION, QUARTER * n) for n in (1.0, 2.0))
+UNDER_ROOF = tuple(product(MACHINES, ROOF_SHARES))
+# without friction the ideal pins, and the reference support under the middle roof load
+CASES = (
+    *(PushedSupport(machine, size, share, FRICTION) for machine, share in UNDER_ROOF for size in CLEARANCES_MM),
+    *(PushedSupport(MACHINES[0], size, MIDDLE, 0.0) for size in CLEARANCES_MM if size),
+    *(PushedSupport(machine, 0.0, share, 0.0) for machine, share in UNDER_ROOF),
+    SLOW,
+)
+
+
+def usual(machine: str, clearance_mm: float) -> str:
+    """The name of the case of a machine under the middle roof load, with friction."""
+    return PushedSupport(machine, clearance_mm, MIDDLE, FRICTION).name
+
 
 # --- measures ---
 
 OUTER = 0.7  # share of the push from which on a branch is fitted by a straight line
-SIDES = {"front": 1.0, "rear": -1.0}
 
 
-@dataclass(frozen=True)
 class Loop:
     """A run of a support as force over displacement: from the first turn in front, to the rear and back.
 
-    case: that was run. run: its records.
+    force: the push [N], forward. shift: displacement of the pushed point since the start [m], forward.
+    leg_force: what the legs push the canopy forward with [N]. All have the shape (n,).
+
+    Arguments:
+        case: that was run.
+        run: its records.
     """
 
-    case: PushedSupport
-    run: MeasuredRun
-
-    @cached_property
-    def inside(self) -> Mask:
-        """Mask of the loop's records."""
-        return between(self.run, self.case.time(1), self.case.time(5))
-
-    @cached_property
-    def force(self) -> Series:
-        """The push [N], forward."""
-        found: Series = self.run["push.force_x"][self.inside]
-        return found
-
-    @cached_property
-    def shift(self) -> Series:
-        """Displacement of the pushed point since the start [m], forward."""
-        angle = self.run["canopy.angle"]
-        x, y = self.run["canopy.x"], self.run["canopy.y"]
-        ox, oy = self.case.place[0] - x[0], self.case.place[1] - y[0]
+    def __init__(self, case: PushedSupport, run: MeasuredRun) -> None:
+        self.case = case
+        inside = between(run, case.time(1), case.time(5))
+        self.force: Series = run["push.force_x"][inside]
+        angle, x, y = (run[f"canopy.{name}"] for name in ("angle", "x", "y"))
+        ox, oy = case.place[0] - x[0], case.place[1] - y[0]
         place = x + ox * np.cos(angle) - oy * np.sin(angle)
-        found: Series = (place - self.case.place[0])[self.inside]
-        return found
-
-    @cached_property
-    def leg_force(self) -> Series:
-        """What the legs push the canopy forward with [N]."""
-        pairs = [self.run[f"{name}.force"] * np.cos(self.run[f"{name}.angle"]) for name in PAIRS]
-        found: Series = np.sum(pairs, axis=0)[self.inside]
-        return found
+        self.shift: Series = (place - case.place[0])[inside]
+        pairs = [run[f"{name}.force"] * np.cos(run[f"{name}.angle"]) for name in PAIRS]
+        self.leg_force: Series = np.sum(pairs, axis=0)[inside]
 
     def outward(self, side: float) -> tuple[float, float]:
         """Slope [N/m] of the branch on which the push grows to a side, and its displacement at no push [m].
@@ -180,49 +164,31 @@ class Loop:
         slope, place = np.polyfit(self.force[chosen], self.shift[chosen], 1)
         return float(1.0 / slope), float(place)
 
-    @property
-    def slack(self) -> float:
-        """How far apart the outward branches of both sides begin [m]."""
-        return self.outward(1.0)[1] - self.outward(-1.0)[1]
+    def measures(self) -> dict[str, float]:
+        """All numbers of the loop in the units of MEASURES.
 
-    @property
-    def beyond(self) -> float:
-        """Tangent stiffness beyond the slack [N/m]: that of both sides in series, twice."""
-        front, rear = (self.outward(side)[0] for side in SIDES.values())
-        return 2.0 / (1.0 / front + 1.0 / rear)
-
-    @property
-    def whole(self) -> float:
-        """Stiffness from turn to turn [N/m]."""
-        return float(np.ptp(self.force) / np.ptp(self.shift))
-
-    @property
-    def within(self) -> float:
-        """Stiffness of the legs alone [N/m]: what they push with, over the displacement; < 0: they lean."""
-        return -float(np.polyfit(self.shift, self.leg_force, 1)[0])
-
-    @property
-    def leg_share(self) -> float:
-        """Share of the push that the legs take, from turn to turn; negative: they push where it goes."""
-        ends = int(np.argmax(self.force)), int(np.argmin(self.force))
-        change = self.leg_force[ends[0]] - self.leg_force[ends[1]]
-        return float(-change / np.ptp(self.force))
-
-    @property
-    def loss(self) -> float:
-        """Energy that a loop turns into heat, over the rectangle around it."""
-        area = abs(float(np.trapezoid(self.force, self.shift)))
-        return area / float(np.ptp(self.force) * np.ptp(self.shift))
+        slack: how far apart the outward branches of both sides begin. beyond: tangent stiffness beyond it, of
+        both sides in series, twice. whole: stiffness from turn to turn. within: that of the legs alone, what
+        they push with over the displacement; < 0: they lean. leg_share: of the push, from turn to turn;
+        negative: they push where it goes. loss: energy that a loop turns into heat, over the rectangle around
+        it.
+        """
+        (front, begins), (rear, ends) = (self.outward(side) for side in (1.0, -1.0))
+        force, shift = float(np.ptp(self.force)), float(np.ptp(self.shift))
+        turns = self.leg_force[[np.argmin(self.force), np.argmax(self.force)]]
+        return {
+            "slack": 1e3 * (begins - ends),
+            "beyond": 1e-6 * 2.0 / (1.0 / front + 1.0 / rear),
+            "whole": 1e-6 * force / shift,
+            "within": -1e-6 * float(np.polyfit(self.shift, self.leg_force, 1)[0]),
+            "leg_share": float(turns[0] - turns[1]) / force,
+            "loss": abs(float(np.trapezoid(self.force, self.shift))) / (force * shift),
+        }
 
 
-MEASURES = {  # unit and scale from SI, by the name of a property
-    "slack": ("mm", 1e3),
-    "beyond": ("kN/mm", 1e-6),
-    "whole": ("kN/mm", 1e-6),
-    "within": ("kN/mm", 1e-6),
-    "leg_share": ("1", 1.0),
-    "loss": ("1", 1.0),
-}
+MEASURES = {  # units
+    "slack": "mm", "beyond": "kN/mm", "whole": "kN/mm", "within": "kN/mm", "leg_share": "1", "loss": "1",
+}  # fmt: skip
 OF_IDEAL = ("whole", "leg_share")  # what a support without slack has
 
 
@@ -233,11 +199,11 @@ Shares = Mapping[tuple[str, float], Mapping[str, float]]  # of the push, by mach
 def pin_shares(case: PushedSupport, run: Result) -> dict[str, float]:
     """Change of the force of each pin over that of the push, from turn to turn, all pins ideal."""
     front, rear = (int(np.argmin(np.abs(run.time - case.time(n)))) for n in (1, 3))
-    found = {}
+    shares = {}
     for pin in PINS:
-        change = [run[f"pin.{pin}.force_{axis}"][front] - run[f"pin.{pin}.force_{axis}"][rear] for axis in "xy"]
-        found[pin] = float(np.hypot(*change) / (2.0 * case.push))
-    return found
+        along, up = (run[f"pin.{pin}.force_{axis}"] for axis in "xy")
+        shares[pin] = float(np.hypot(along[front] - along[rear], up[front] - up[rear]) / (2.0 * case.push))
+    return shares
 
 
 def kinematic_slack(case: PushedSupport, shares: Mapping[str, float]) -> float:
@@ -251,16 +217,13 @@ def kinematic_slack(case: PushedSupport, shares: Mapping[str, float]) -> float:
 def numbers(ran: Ran) -> list[Number]:
     """All numbers of the loops."""
 
-    def measure(case: PushedSupport, name: str, unit: str, scale: float) -> Number:
-        result = ran[case.name][1]
-        return measured(
-            name, case.name, unit, result, lambda run: scale * float(getattr(Loop(case, run), name))
-        )
+    def measure(case: PushedSupport, run: Result, name: str) -> Number:
+        return measured(name, case.name, MEASURES[name], run, lambda finer: Loop(case, finer).measures()[name])
 
     return [
-        measure(case, name, *units)
-        for case, _ in ran.values()
-        for name, units in MEASURES.items()
+        measure(case, run, name)
+        for case, run in ran.values()
+        for name in MEASURES
         if case.clearance_mm or name in OF_IDEAL
     ]
 
@@ -281,14 +244,9 @@ def key_table(found: Found, shares: Shares) -> Sheet:
     rows = []
     for machine in MACHINES:
         for size in CLEARANCES_MM[1:]:
-            case = PushedSupport(machine, size, MIDDLE, FRICTION)
-            slack, beyond, whole, within = (
-                found[name, case.name] for name in ("slack", "beyond", "whole", "within")
-            )
-            predicted = 1e3 * kinematic_slack(case, shares[machine, MIDDLE])
-            rows.append((
-                machine, f"{size:g}", cell(slack), f"{predicted:.2f}", cell(within), cell(beyond), cell(whole),
-            ))  # fmt: skip
+            names = ("slack", "within", "beyond", "whole")
+            slack, *stiffness = (cell(found[name, usual(machine, size)]) for name in names)
+            rows.append((machine, f"{size:g}", slack, f"{factor(shares, machine) * size:.2f}", *stiffness))
     header = (
         "support", "clearance [mm]", "slack [mm]", "by virtual work [mm]", "within [kN/mm]", "beyond [kN/mm]",
         "turn to turn [kN/mm]",
@@ -300,7 +258,7 @@ def participation_table(found: Found) -> Sheet:
     """What is left of the linkage's stiffness, by clearance and by how far the roof moves."""
     rows = []
     for size in CLEARANCES_MM[1:]:
-        slack = found["slack", PushedSupport(MACHINES[0], size, MIDDLE, FRICTION).name]
+        slack = found["slack", usual(MACHINES[0], size)]
         left = [100.0 * participation(slack.value, one) for one in ROOF_MOVES_MM]
         rows.append((f"{size:g}", cell(slack), *(f"{one:.0f} %" for one in left)))
     header = ("clearance [mm]", "slack [mm]", *(f"roof moves ± {one:g} mm" for one in ROOF_MOVES_MM))
@@ -332,7 +290,7 @@ def loop_figure(ran: Ran) -> Figure:
     drawing, panels = grid(85, 1, 2)
     for axes, machine in zip(panels.flat, MACHINES, strict=True):
         for (colour, dashes), size in zip(reversed(style.CURVES[:4]), DRAWN_MM, strict=True):
-            loop = Loop(*ran[PushedSupport(machine, size, MIDDLE, FRICTION).name])
+            loop = Loop(*ran[usual(machine, size)])
             label = f"{size:g} mm" if size else "ideal pins"
             axes.plot(1e3 * loop.shift, 1e-3 * loop.force, color=colour, ls=dashes, label=label)
         axes.set(xlabel="displacement of the canopy [mm]", ylabel="horizontal force [kN]", title=machine)
@@ -364,27 +322,25 @@ def slack_figure(found: Found, shares: Shares) -> Figure:
 # --- the study ---
 
 
-def _off(found: Found, case: PushedSupport, shares: Shares) -> float:
-    """How far the slack of a case is from that by virtual work, relatively."""
-    known = 1e3 * kinematic_slack(case, shares[case.machine, case.roof_share])
-    return abs(found["slack", case.name].value / known - 1.0)
-
-
 def work(chosen: Options) -> StudyOutcome:
     """All loops, their numbers, figures and tables."""
-    runs = run_cases({case.name: case.scenario() for case in cases()}, chosen)
-    ran = {case.name: (case, runs[case.name]) for case in cases()}
+    runs = run_cases({case.name: case.scenario() for case in CASES}, chosen)
+    ran = {case.name: (case, runs[case.name]) for case in CASES}
     shares = {
         (machine, share): pin_shares(*ran[PushedSupport(machine, 0.0, share, 0.0).name])
-        for machine in MACHINES
-        for share in ROOF_SHARES
+        for machine, share in UNDER_ROOF
     }
     factors = [
         Number("slack_over_clearance", machine, factor(shares, machine), "1", 0.0) for machine in MACHINES
     ]
     reported = numbers(ran) + factors
     found = by_case(reported)
-    loaded = [case for case in cases() if case.clearance_mm and case.roof_share >= MIDDLE]
+    off = [  # slack against virtual work
+        abs(found["slack", case.name].value / known - 1.0)
+        for case in CASES
+        if (known := 1e3 * kinematic_slack(case, shares[case.machine, case.roof_share]))
+        and case.roof_share >= MIDDLE
+    ]
 
     def number(name: str, machine: str, size: float, share: float = MIDDLE, mu: float = FRICTION) -> Number:
         return found[name, PushedSupport(machine, size, share, mu).name]
@@ -395,7 +351,7 @@ def work(chosen: Options) -> StudyOutcome:
         "slow": found["slack", SLOW.name],
         "fast": found["slack", FAST.name],
         "factors": {one.case: one.value for one in factors},
-        "off": max(_off(found, case, shares) for case in loaded),
+        "off": max(off),
         "left": participation,
         "middle": MIDDLE,
     }
@@ -405,7 +361,7 @@ def work(chosen: Options) -> StudyOutcome:
         "pins": pin_table(shares),
     }
     drawings = {"loops": loop_figure(ran), "slack_and_stiffness": slack_figure(found, shares)}
-    shown = (PushedSupport(MACHINES[0], size, MIDDLE, FRICTION).name for size in (0.0, 1.0))
+    shown = (usual(MACHINES[0], size) for size in (0.0, 1.0))
     return StudyOutcome(reported, words, drawings, sheets, {name: runs[name] for name in shown})
 
 

@@ -8,7 +8,7 @@ all that both do alike, such as following the load's direction as that turns.
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -17,7 +17,7 @@ from studies.common.numbers import Number
 from studies.common.paper_machine import BORE_RADIUS, RESTITUTION
 from support_exudyn import ClearancePin, Result, Scenario, SolverSettings, Steady, reference_support
 from support_exudyn.mechanics.pin_stability import LoadedJournal, SlidingPin
-from support_exudyn.scenario.pin_stability import PinOutlook, pin_outlooks
+from support_exudyn.scenario.pin_stability import pin_outlooks
 from user_forces import Ambrosio
 from user_forces.values.value import InputError
 
@@ -92,8 +92,7 @@ class PinCase:
 CASES = tuple(PinCase(pin, stiffness, mu) for pin in PINS for stiffness in STIFFNESSES for mu in FRICTIONS)
 
 
-@dataclass(frozen=True)
-class Prepared:
+class Prepared(NamedTuple):
     """A case, ready to be run.
 
     predicted: in the middle of the run. runs: two scenarios. depth: at the equilibrium [m].
@@ -101,7 +100,7 @@ class Prepared:
 
     case: PinCase
     predicted: SlidingPin
-    runs: tuple[Scenario, Scenario]
+    runs: tuple[Scenario, ...]
     depth: float
 
 
@@ -109,42 +108,33 @@ def prepared(case: PinCase) -> Prepared:
     """The prediction of a case and its two runs.
 
     Both begin at rest, while the equilibrium moves on. That by itself excites the motion that grows; they begin
-    so far off the equilibrium that it does so least by the end of the run.
+    so far off the equilibrium that it does so least by the end of the run. A run lasts some swings, or until it
+    has grown, but one swing at least.
     """
     scenario = case.scenario()
-    start = _outlook(scenario, case, [0.0, LOOK_AHEAD])
-    pin, later = map(_sliding, start.found)
-    moves = (later.place - pin.place) / LOOK_AHEAD
-    duration = run_time(pin)
-    calm = _calm(start.journals[0], pin, moves, duration)
+
+    def outlook(*times: float) -> tuple[LoadedJournal, list[SlidingPin]]:
+        ahead = pin_outlooks(scenario, times, (case.pin,))[0]
+        pins = [pin for pin in ahead.found if pin is not None]
+        if len(pins) < len(times):
+            raise InputError(
+                "stability: a pin has no place at which it slides; allowed: frictions with which it has"
+            )
+        return ahead.journals[0], pins
+
+    journal, (pin, later) = outlook(0.0, LOOK_AHEAD)
+    swing = 1.0 / pin.frequency
+    duration = min(SWINGS * swing, max(FACTOR / max(abs(pin.growth), 1e-9), swing))
+    calm = _calm(journal, pin, (later.place - pin.place) / LOOK_AHEAD, duration)
     step = FINE / float(np.abs(pin.roots).max())
-    normal = pin.place / np.linalg.norm(pin.place)
     off = SMALL * pin.depth * min(1.0, math.exp(-pin.growth * duration))
     runs = []
     for side in SIDES:
-        x, y = (pin.place + calm + side * off * normal).tolist()
+        x, y = (pin.place + calm + side * off * pin.place / np.linalg.norm(pin.place)).tolist()
         there = replace(case.clearance_pin(), eccentricity=(x, y))
         runs.append(replace(case.scenario(duration, step), pins={case.pin: there}))
-    middle = _outlook(scenario, case, [0.5 * duration])
-    return Prepared(case, _sliding(middle.found[0]), (runs[0], runs[1]), pin.depth)
-
-
-def run_time(pin: SlidingPin) -> float:
-    """For how long a pin is run [s]: some swings, or until it has grown, but one swing at least."""
-    swing = 1.0 / pin.frequency
-    return min(SWINGS * swing, max(FACTOR / max(abs(pin.growth), 1e-9), swing))
-
-
-def _outlook(scenario: Scenario, case: PinCase, times: list[float]) -> PinOutlook:
-    return pin_outlooks(scenario, times, (case.pin,))[0]
-
-
-def _sliding(pin: SlidingPin | None) -> SlidingPin:
-    if pin is None:
-        raise InputError(
-            "stability: a pin has no place at which it slides; allowed: frictions with which it has"
-        )
-    return pin
+    _, (middle,) = outlook(0.5 * duration)
+    return Prepared(case, middle, tuple(runs), pin.depth)
 
 
 def _calm(journal: LoadedJournal, pin: SlidingPin, moves: Array, duration: float) -> Array:
@@ -167,15 +157,14 @@ def _calm(journal: LoadedJournal, pin: SlidingPin, moves: Array, duration: float
 
 
 def all_scenarios(ready: Mapping[str, Prepared]) -> dict[str, Scenario]:
-    """Both runs of every case at its steps and at half of them, by name."""
-    found = {}
+    """Both runs of every case at its steps and at half of them, by name; records stay alike."""
+    scenarios = {}
     for name, one in ready.items():
-        for n, scenario in enumerate(one.runs):
-            found[run_name(name, n, fine=False)] = scenario
-            # records stay, so that both are read at the same times
-            finer = scenario.refined()
-            found[run_name(name, n, fine=True)] = replace(finer, record_period=scenario.record_period)
-    return found
+        for side, scenario in enumerate(one.runs):
+            scenarios[run_name(name, side, fine=False)] = scenario
+            finer = replace(scenario.refined(), record_period=scenario.record_period)
+            scenarios[run_name(name, side, fine=True)] = finer
+    return scenarios
 
 
 def run_name(case: str, side: int, *, fine: bool) -> str:
@@ -188,55 +177,31 @@ RESOLVED = 5e-3  # growth rate as a share of the angular frequency that counts a
 ALIKE = 0.1  # of the growth rate, or of what counts at least
 
 
-@dataclass(frozen=True)
-class Growth:
+class Growth(NamedTuple):
     """Predicted and measured growth of a case.
 
-    prepared: the case with its prediction. measured, halved: the root of the vibration that grows fastest in
-    the run, and at half its steps [1/s]. moved: largest motion normal to the wall over the depth.
+    case: its name. prepared: the case with its prediction. predicted: growth rate [1/s]. measured: that of the
+    vibration that grows fastest in the run, at half its steps [1/s]. frequency: of that [Hz]. off: distance of
+    measured from predicted growth rate. by_steps: what half the steps change; both as a share of the growth
+    rate, or of the least that counts. error: what half the steps change [1/s]. moved: largest motion normal to
+    the wall over the depth.
     """
 
+    case: str
     prepared: Prepared
-    measured: complex
-    halved: complex
+    predicted: float
+    measured: float
+    frequency: float
+    off: float
+    by_steps: float
+    error: float
     moved: float
-
-    @property
-    def case(self) -> str:
-        """The name of the case."""
-        return self.prepared.case.name
-
-    @property
-    def predicted(self) -> float:
-        """Predicted growth rate [1/s]."""
-        return self.prepared.predicted.growth
-
-    @property
-    def frequency(self) -> float:
-        """Measured frequency [Hz]."""
-        return abs(self.halved.imag) / (2.0 * math.pi)
-
-    @property
-    def scale(self) -> float:
-        """The size by which a difference of growth rates is judged [1/s]."""
-        return max(abs(self.predicted), RESOLVED * 2.0 * math.pi * self.prepared.predicted.frequency)
-
-    @property
-    def off(self) -> float:
-        """Distance of measured from predicted growth rate as a share of the scale [-]."""
-        return abs(self.halved.real - self.predicted) / self.scale
-
-    @property
-    def by_steps(self) -> float:
-        """What half the steps change, as a share of the scale [-]."""
-        return abs(self.halved.real - self.measured.real) / self.scale
 
     def numbers(self) -> list[Number]:
         """Its numbers; what is predicted has the error of a closed form."""
-        rate = self.halved.real
         return [
             Number("predicted_growth_rate", self.case, self.predicted, "1/s", 0.0),
-            Number("growth_rate", self.case, rate, "1/s", abs(rate - self.measured.real)),
+            Number("growth_rate", self.case, self.measured, "1/s", self.error),
             Number("predicted_frequency", self.case, self.prepared.predicted.frequency, "Hz", 0.0),
             Number("frequency", self.case, self.frequency, "Hz", 0.0),
         ]
@@ -275,7 +240,20 @@ def growth(one: Prepared, runs: Mapping[str, Result]) -> Growth:
     """The growth of a case in its runs."""
     coarse, fine = (fastest(roots(*difference(one, runs, fine=fine))) for fine in (False, True))
     depth = runs[run_name(one.case.name, 0, fine=True)][f"pin.{one.case.pin}.depth"]
-    return Growth(one, coarse, fine, float(np.ptp(depth)) / one.depth)
+    predicted = one.predicted.growth
+    scale = max(abs(predicted), RESOLVED * 2.0 * math.pi * one.predicted.frequency)
+    error = abs(fine.real - coarse.real)
+    return Growth(
+        case=one.case.name,
+        prepared=one,
+        predicted=predicted,
+        measured=fine.real,
+        frequency=abs(fine.imag) / (2.0 * math.pi),
+        off=abs(fine.real - predicted) / scale,
+        by_steps=error / scale,
+        error=error,
+        moved=float(np.ptp(depth)) / one.depth,
+    )
 
 
 def difference(one: Prepared, runs: Mapping[str, Result], *, fine: bool) -> tuple[Array, Array]:

@@ -8,8 +8,8 @@ stiffnesses, three coefficients of friction. Maps of the growth rate over stroke
 import math
 import sys
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import replace
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -50,8 +50,7 @@ STATIONS, EVERY = 21, 5  # of the stroke in a map, and which of them are asked f
 RISE = UniformSpeed(stroke=0.5, start=0.0, end=2.0)  # of which the maps are
 
 
-@dataclass(frozen=True)
-class WholeStroke:
+class WholeStroke(NamedTuple):
     """A pin over the whole rise at a friction of 0.25.
 
     outlook: at all stations. critical, undamped, painleve: the smallest critical friction of the stroke, the
@@ -132,7 +131,7 @@ def answer_figure(found: Sequence[Growth], shown: Prepared, runs: Mapping[str, R
     for one in found:
         case = one.prepared.case
         look = {"color": COLOURS[case.pin], "ms": 4, "mfc": "none", "mew": 0.9}
-        rates.plot(one.predicted, one.halved.real, MARKERS[case.stiffness], **look)
+        rates.plot(one.predicted, one.measured, MARKERS[case.stiffness], **look)
     ends = (1.5 * min(one.predicted for one in found), 1.5 * max(one.predicted for one in found))
     rates.plot(ends, ends, color="#999999", lw=0.8, zorder=0.5)
     ticks = [-1.0, 0.0, 1.0, 10.0, 100.0]
@@ -151,6 +150,7 @@ def answer_figure(found: Sequence[Growth], shown: Prepared, runs: Mapping[str, R
 
 
 def _motion(axes: Axes, shown: Prepared, runs: Mapping[str, Result]) -> None:
+    """The difference of both runs of a case along the wall, between the curves of its predicted growth."""
     time, motion = difference(shown, runs, fine=True)
     normal = shown.predicted.place / np.linalg.norm(shown.predicted.place)
     across = motion @ np.array([-normal[1], normal[0]])

@@ -44,26 +44,26 @@ class MadeUp:
 
 
 def test_what_a_made_up_loop_consists_of_is_found() -> None:
-    loop = Loop(CASE, MadeUp(CASE))
-    assert loop.slack == pytest.approx(SLACK, rel=1e-6)
-    assert loop.beyond == pytest.approx(STIFFNESS, rel=1e-6)
-    assert loop.within == pytest.approx(LEAN, rel=1e-6)
+    loop = Loop(CASE, MadeUp(CASE)).measures()
+    assert loop["slack"] == pytest.approx(1e3 * SLACK, rel=1e-6)
+    assert loop["beyond"] == pytest.approx(1e-6 * STIFFNESS, rel=1e-6)
+    assert loop["within"] == pytest.approx(1e-6 * LEAN, rel=1e-6)
     moved = SLACK + 2.0 * CASE.push / STIFFNESS
-    assert loop.whole == pytest.approx(2.0 * CASE.push / moved, rel=1e-3)
-    assert loop.leg_share == pytest.approx(LEAN * moved / (2.0 * CASE.push), rel=1e-3)
+    assert loop["whole"] == pytest.approx(2e-6 * CASE.push / moved, rel=1e-3)
+    assert loop["leg_share"] == pytest.approx(LEAN * moved / (2.0 * CASE.push), rel=1e-3)
 
 
 @pytest.mark.slow  # a support is pushed slowly
 def test_the_slack_of_a_support_is_that_of_virtual_work() -> None:
     ideal = replace(CASE, clearance_mm=0.0, friction=0.0)
     shares = pin_shares(ideal, simulate(replace(ideal.scenario(), accuracy=None)))
-    loop = Loop(CASE, simulate(replace(CASE.scenario(), accuracy=None)))
-    assert loop.slack == pytest.approx(kinematic_slack(CASE, shares), rel=0.04)
+    loop = Loop(CASE, simulate(replace(CASE.scenario(), accuracy=None))).measures()
+    assert 1e-3 * loop["slack"] == pytest.approx(kinematic_slack(CASE, shares), rel=0.04)
     # the legs alone, of nearly one length, are a parallelogram that a load on it tips
     machine = support("reference")
     lengths = machine.column_lengths(machine.start())
     weight = 9.81 * sum(body.mass for body in machine.linkage().bodies.values())
-    assert loop.within == pytest.approx(-(CASE.roof_load + 0.5 * weight) / np.mean(lengths), rel=0.1)
+    assert 1e6 * loop["within"] == pytest.approx(-(CASE.roof_load + 0.5 * weight) / np.mean(lengths), rel=0.1)
 
 
 @pytest.mark.slow
