@@ -15,37 +15,24 @@ The general force acts at the journal's centre and its reaction at the same plac
 moment of the friction about the journal's centre that is a force at the point of contact on both.
 """
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from studies.adams.statements import Statements, functions, number
 from support_exudyn.model.pins import ClearancePin
-from user_forces.friction.laws import Ambrosio, Frictionless
+from user_forces.friction.laws import Ambrosio
 from user_forces.normal.power_laws import LankaraniNikravesh
-from user_forces.values.value import InputError
 
 FOLLOWING = 1e-5  # T [s]
 SMALLEST = 1e-30  # [m], so that nothing is divided by zero
 
 
-@dataclass(frozen=True)
-class PinMarkers:
+class PinMarkers(NamedTuple):
     """Markers of a clearance pin: of journal and bore, floating on the bore's body, and the ground's axes."""
 
     journal: int
     bore: int
     floating: int
     axes: int
-
-
-def check_law(name: str, pin: ClearancePin) -> None:
-    """Raise InputError unless the pin's contact is the paper's."""
-    normal, friction = pin.contact.normal, pin.contact.friction
-    if type(normal) is not LankaraniNikravesh:
-        raise InputError(f"pins.{name}.contact.normal = {type(normal).__name__}: allowed: LankaraniNikravesh")
-    if type(friction) not in (Ambrosio, Frictionless):
-        raise InputError(
-            f"pins.{name}.contact.friction = {type(friction).__name__}: allowed: Ambrosio, or none"
-        )
 
 
 # variables of a pin in their order; braces stand for earlier ones, for markers and for numbers

@@ -12,15 +12,17 @@ translational joint whose motion is the drive, and the rod's INLINE at the head.
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from typing import NamedTuple
 
-from studies.adams.clearance import PinMarkers, check_law, write_clearance
+from studies.adams.clearance import PinMarkers, write_clearance
 from studies.adams.statements import Requests, Statements, number, numbers
 from support_exudyn import CubicStep, Scenario
 from support_exudyn.model.actuators import RigidActuator
 from support_exudyn.model.drives.drive import Drive, Held
 from support_exudyn.model.linkage import GROUND, Body, LinearActuator, PinPlace
 from support_exudyn.model.pins import ClearancePin, IdealPin
+from user_forces.friction.laws import Ambrosio, Frictionless
+from user_forces.normal.power_laws import LankaraniNikravesh
 from user_forces.values.value import InputError, Vector2
 
 LIGHT = 1e-4  # mass [kg] and inertia [kg m^2] of the parts of columns, which weigh nothing
@@ -33,8 +35,7 @@ HEADER = """\
 """
 
 
-@dataclass(frozen=True)
-class AdamsDataset:
+class AdamsDataset(NamedTuple):
     """A dataset, and what its results are called.
 
     text: of the `.adm` file. columns: the channels that its requests write, by name, each with what the result
@@ -55,7 +56,9 @@ def adams_dataset(scenario: Scenario, title: str) -> AdamsDataset:
 
     Raises InputError with a line for everything that it has no statements for.
     """
-    check(scenario)
+    reasons = list(_reasons(scenario))
+    if reasons:
+        raise InputError("\n".join(reasons))
     return _Writing(scenario).whole(title)
 
 
@@ -171,7 +174,11 @@ class _Writing:
             self.marker(body, head, f"{name}_slide_{end}", along) for end, body in (("i", rod), ("j", cylinder))
         ]
         joint = self.out.add("JOINT", name, "TRANSLATIONAL", f"I = {slides[0]}", f"J = {slides[1]}")
-        motion = self.out.add("MOTION", name, f"JOINT = {joint}", f"FUNCTION = {_extension(drive)}")
+        extension = "0"  # over time [m]
+        if isinstance(drive, CubicStep):
+            start, end, stroke = map(number, (drive.start, drive.end, drive.stroke))
+            extension = f"STEP(TIME,{start},0,{end},{stroke})"
+        motion = self.out.add("MOTION", name, f"JOINT = {joint}", f"FUNCTION = {extension}")
         heads = self.pair(f"{name}_head", (actuator.head, head), (rod, head))
         self.out.add("JPRIM", f"{name}_head", "INLINE", f"I = {heads[0]}", f"J = {heads[1]}")
         self.requests.ask(name, length=f"DM({heads[0]},{feet[1]})", force=f"MOTION({motion},0,4,{slides[0]})")
@@ -196,27 +203,14 @@ class _Writing:
         self.out.plain("RESULTS", "FORMATTED, XRF")
 
 
-def _extension(drive: Drive) -> str:
-    """The extension of a column over time [m]."""
-    if not isinstance(drive, CubicStep):
-        return "0"
-    return f"STEP(TIME,{number(drive.start)},0,{number(drive.end)},{number(drive.stroke)})"
-
-
 def solver_commands(scenario: Scenario, model: str) -> str:
     """The commands (`.acf`) by which ADAMS/Solver runs a dataset: to the scenario's end, with its records."""
     end, period = number(scenario.duration), number(scenario.recorded_every)
     return f"\nfile/model={model}\nsimulate/dynamics, end={end}, dtout={period}\nstop\n"
 
 
-def check(scenario: Scenario) -> None:
-    """Raise InputError with a line for everything that the writer has no statements for."""
-    reasons = list(_reasons(scenario))
-    if reasons:
-        raise InputError("\n".join(reasons))
-
-
 def _reasons(scenario: Scenario) -> Iterator[str]:
+    """A line for everything that the writer has no statements for."""
     linkage = scenario.linkage
     if scenario.dimensions != 2:
         yield f"dimensions = {scenario.dimensions}: allowed: 2"
@@ -224,10 +218,12 @@ def _reasons(scenario: Scenario) -> Iterator[str]:
         yield f"start = {scenario.start!r}: allowed: 'concentric'"
     for name, pin in scenario.pins.items():
         if isinstance(pin, ClearancePin):
-            try:
-                check_law(name, pin)
-            except InputError as error:
-                yield str(error)
+            law, friction = pin.contact.normal, pin.contact.friction
+            if type(law) is not LankaraniNikravesh:
+                yield f"pins.{name}.contact.normal = {type(law).__name__}: allowed: LankaraniNikravesh"
+            if type(friction) not in (Ambrosio, Frictionless):
+                kind = type(friction).__name__
+                yield f"pins.{name}.contact.friction = {kind}: allowed: Ambrosio, or none"
         elif not isinstance(pin, IdealPin):
             yield f"pins.{name} = {type(pin).__name__}: allowed: ideal pins, and ClearancePin"
         elif pin.friction is not None:

@@ -4,7 +4,6 @@ Three files: the dataset and the commands for ADAMS/Solver, and the mapping by w
 channels in the results. The paper's rise is written as a scenario, too; one of yours stays as it is.
 """
 
-from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -29,18 +28,6 @@ def paper_rise() -> Scenario:
     return replace(rise, accuracy="standard")
 
 
-def mapping_text(columns: Mapping[str, str], results: str) -> str:
-    """The mapping file of `compare` for the results of ADAMS: channels, and what they are called there."""
-    lines = [
-        "# Our channels, and what they are called in the results of ADAMS (names of requests and components).",
-        "# ADAMS writes their units. `compare` takes this file by --map.",
-        "",
-        f'[files."{results}".columns]',
-        *(f'"{channel}" = "{column}"' for channel, column in columns.items()),
-    ]
-    return "\n".join(lines) + "\n"
-
-
 def write(scenario: Scenario, name: str, out: Path) -> list[Path]:
     """Write the files for ADAMS and the mapping into a folder; returns their paths.
 
@@ -48,10 +35,17 @@ def write(scenario: Scenario, name: str, out: Path) -> list[Path]:
     be written to.
     """
     dataset = adams_dataset(scenario, name)
+    mapping = [
+        "# Our channels, and what they are called in the results of ADAMS (names of requests and components).",
+        "# ADAMS writes their units. `compare` takes this file by --map.",
+        "",
+        f'[files."{name}.res".columns]',
+        *(f'"{channel}" = "{column}"' for channel, column in dataset.columns.items()),
+    ]
     texts = {
         f"{name}.adm": dataset.text,
         f"{name}.acf": solver_commands(scenario, name),
-        MAPPING: mapping_text(dataset.columns, f"{name}.res"),
+        MAPPING: "\n".join(mapping) + "\n",
     }
     for file, text in texts.items():
         with whole_file(out / file) as temporary:
@@ -69,7 +63,12 @@ def adams(scenario: Path | None = None, /, *, out: Path = Path("results") / "ada
 
     def work(out: Path) -> None:
         written_for = paper_rise() if scenario is None else read_scenario(scenario)
-        name = PAPER if scenario is None else _name(scenario)
+        name = PAPER if scenario is None else scenario.stem
+        if not (name.isascii() and name.isidentifier() and len(name) <= LONGEST_NAME):
+            raise InputError(
+                f"{scenario}: ADAMS takes names of letters, digits and underscores; allowed: a file of such a "
+                f"name, up to {LONGEST_NAME} letters"
+            )
         written = write(written_for, name, out)
         if scenario is None:
             written.append(save_scenario(written_for, out / f"{name}.toml"))
@@ -78,14 +77,3 @@ def adams(scenario: Path | None = None, /, *, out: Path = Path("results") / "ada
         say("not run in ADAMS here; see studies/adams/README.md")
 
     return work_in_folder(work, out)
-
-
-def _name(path: Path) -> str:
-    """The name of a scenario's file, as ADAMS takes names."""
-    name = path.stem
-    if not (name.isascii() and name.isidentifier() and len(name) <= LONGEST_NAME):
-        raise InputError(
-            f"{path}: ADAMS takes names of letters, digits and underscores; allowed: a file of such a name, "
-            f"up to {LONGEST_NAME} letters"
-        )
-    return name
