@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any
@@ -11,7 +11,7 @@ from typing import Any
 from studies.common.support_legs import PAIRS, legs_data, loose_pins, support, support_legs, tight_pins
 from support_exudyn import ClearancePin, Line, OilColumn, Result, Scenario, YieldValve, simulate
 from support_exudyn.machines.four_bar_shield import PINS as ALL_PINS
-from support_exudyn.machines.four_column_support import HydraulicSupport, Posture
+from support_exudyn.machines.four_column_support import HydraulicSupport
 from support_exudyn.machines.shield_layout import TAIL
 from support_exudyn.model.loads.applied import AppliedForce
 from support_exudyn.model.loads.falling_block import FallingBlock
@@ -41,23 +41,28 @@ def _between(a: Vector2, b: Vector2) -> Vector2:
     return 0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])
 
 
-def _tail_beam(machine: HydraulicSupport, start: Posture) -> Vector2:
-    """Centre of the tail beam, which is a part of the shield."""
-    (tail,) = (part for part in machine.parts["shield"] if part.name == TAIL)
-    return moved(tail.centre, machine.rear_shield, start.rear_shield, start.shield)
-
-
-# body that is struck, and where in the start posture, by the name of the place
-PLACES: dict[str, tuple[str, Callable[[HydraulicSupport, Posture], Vector2]]] = {
-    "tip": ("canopy", lambda machine, start: start.tip),
-    "between": ("canopy", lambda machine, start: _between(start.tip, start.ends["front_head"])),
-    "over the legs": (
-        "canopy",
-        lambda machine, start: _between(start.ends["front_head"], start.ends["rear_head"]),
-    ),
-    "shield": ("shield", lambda machine, start: _between(start.front_shield, start.hinge)),
-    "tail beam": ("shield", _tail_beam),
+# body that is struck, by the name of the place
+PLACES = {
+    "tip": "canopy",
+    "between": "canopy",
+    "over the legs": "canopy",
+    "shield": "shield",
+    "tail beam": "shield",
 }
+
+
+def place_of(machine: HydraulicSupport, place: str) -> Vector2:
+    """Where a block strikes in the start posture [m]; the tail beam, a part of the shield, in its centre."""
+    start = machine.start()
+    front, rear = start.ends["front_head"], start.ends["rear_head"]
+    (tail,) = (part for part in machine.parts["shield"] if part.name == TAIL)
+    return {
+        "tip": start.tip,
+        "between": _between(start.tip, front),
+        "over the legs": _between(front, rear),
+        "shield": _between(start.front_shield, start.hinge),
+        "tail beam": moved(tail.centre, machine.rear_shield, start.rear_shield, start.shield),
+    }[place]
 
 
 @dataclass(frozen=True)
@@ -87,12 +92,10 @@ class Blow:
 
     def block(self) -> FallingBlock:
         """The block, which starts with a speed, so that all strike at the same time."""
-        machine = support(self.machine)
-        body, point = PLACES[self.place]
         fast = math.sqrt(2.0 * GRAVITY * self.height)
         return FallingBlock(
-            body=body,
-            point=point(machine, machine.start()),
+            body=PLACES[self.place],
+            point=place_of(support(self.machine), self.place),
             mass=1e3 * self.mass,
             height=fast * STRIKE - 0.5 * GRAVITY * STRIKE**2,
             speed=fast - GRAVITY * STRIKE,
@@ -104,7 +107,7 @@ class Blow:
         """The run: at rest under the roof load, until the block strikes."""
         pressures, places = at_rest(self.machine, self.pins)
         legs = support_legs(self.machine, valve=self.valve)
-        loose = self.loose_pins()
+        loose = loose_pins(self.machine, CLEARANCE_MM, FRICTION, PINS[self.pins])
         return Scenario(
             machine=support(self.machine),
             actuators={name: replace(leg, setting_pressure=pressures[name]) for name, leg in legs.items()},
@@ -119,10 +122,6 @@ class Blow:
             formulation="compiled",
             accuracy="draft",
         )
-
-    def loose_pins(self) -> dict[str, ClearancePin]:
-        """The pins that have clearance, concentric."""
-        return loose_pins(self.machine, CLEARANCE_MM, FRICTION, PINS[self.pins])
 
 
 def roof(machine: str) -> dict[str, AppliedForce]:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import sys
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -46,48 +46,39 @@ OVERLOAD = 1.2  # of the yield force, up to which no part may fail (EN 1804-1, 4
 # --- measures ---
 
 
-@dataclass(frozen=True)
-class Struck:
-    """The records of a run from just before the blow on."""
+def struck(run: MeasuredRun, channel: str) -> Series:
+    """A channel from just before the blow on, shape (n,)."""
+    values: Series = run[channel][between(run, STRIKE - BEFORE, float(run.time[-1]))]
+    return values
 
-    run: MeasuredRun
 
-    def of(self, channel: str) -> Series:
-        """A channel from just before the blow on, shape (n,)."""
-        inside = between(self.run, STRIKE - BEFORE, float(self.run.time[-1]))
-        values: Series = self.run[channel][inside]
-        return values
+def most(run: MeasuredRun, channel: str, names: Iterable[str]) -> float:
+    """The largest value of a channel of any of some members."""
+    return max(float(struck(run, channel.format(name)).max()) for name in names)
 
-    def most(self, channel: str, names: Iterable[str]) -> float:
-        """The largest value of a channel of any of some members."""
-        return max(float(self.of(channel.format(name)).max()) for name in names)
 
-    def tilt(self) -> float:
-        """Largest turn of the canopy from its start, with its sign [rad]; negative: its tip goes down."""
-        turn = self.of("canopy.angle") - self.of("canopy.angle")[0]
-        return float(turn[np.argmax(np.abs(turn))])
+def tilt(run: MeasuredRun) -> float:
+    """Largest turn of the canopy from its start, with its sign [rad]; negative: its tip goes down."""
+    turn = struck(run, "canopy.angle") - struck(run, "canopy.angle")[0]
+    return float(turn[np.argmax(np.abs(turn))])
 
-    def rise(self) -> float:
-        """Largest rise of the pressure of any leg above that before the blow [Pa]."""
-        courses = [self.of(f"{name}.pressure") for name in PAIRS]
-        return max(float((one - one[0]).max()) for one in courses)
 
-    @property
-    def strongest_pin(self) -> str:
-        """The pin of the linkage whose force is the largest."""
-        return max(ALL_PINS, key=lambda pin: self.most("pin.{}.force", (pin,)))
+def rise(run: MeasuredRun) -> float:
+    """Largest rise of the pressure of any leg above that before the blow [Pa]."""
+    courses = [struck(run, f"{name}.pressure") for name in PAIRS]
+    return max(float((course - course[0]).max()) for course in courses)
 
 
 # unit, scale from SI, and value in SI, by name
-MEASURES: dict[str, tuple[str, float, Callable[[Struck], float]]] = {
-    "pressure": ("MPa", 1e-6, lambda struck: struck.most("{}.pressure", PAIRS)),
-    "rise": ("MPa", 1e-6, Struck.rise),
-    "least_pressure": ("MPa", 1e-6, lambda struck: min(float(struck.of(f"{n}.pressure").min()) for n in PAIRS)),
-    "flow": ("l/min", 6e4, lambda struck: struck.most("{}.yield_flow", PAIRS)),
-    "volume": ("l", 1e3, lambda struck: sum(float(struck.of(f"{name}.yielded")[-1]) for name in PAIRS)),
-    "pin_force": ("kN", 1e-3, lambda struck: struck.most("pin.{}.force", ALL_PINS)),
-    "tilt": ("deg", DEGREES, Struck.tilt),
-    "block_force": ("kN", 1e-3, lambda struck: struck.most("{}.force", ("block",))),
+MEASURES: dict[str, tuple[str, float, Callable[[MeasuredRun], float]]] = {
+    "pressure": ("MPa", 1e-6, lambda run: most(run, "{}.pressure", PAIRS)),
+    "rise": ("MPa", 1e-6, rise),
+    "least_pressure": ("MPa", 1e-6, lambda run: min(float(struck(run, f"{n}.pressure").min()) for n in PAIRS)),
+    "flow": ("l/min", 6e4, lambda run: most(run, "{}.yield_flow", PAIRS)),
+    "volume": ("l", 1e3, lambda run: sum(float(struck(run, f"{name}.yielded")[-1]) for name in PAIRS)),
+    "pin_force": ("kN", 1e-3, lambda run: most(run, "pin.{}.force", ALL_PINS)),
+    "tilt": ("deg", DEGREES, tilt),
+    "block_force": ("kN", 1e-3, lambda run: most(run, "{}.force", ("block",))),
 }
 OF_VALVES = ("flow", "volume")
 
@@ -95,7 +86,7 @@ OF_VALVES = ("flow", "volume")
 def numbers(blows: Sequence[Blow], runs: Mapping[str, Result]) -> list[Number]:
     """All numbers of the study."""
     return [
-        measured(measure, blow.name, unit, runs[blow.name], lambda run, s=scale, get=get: s * get(Struck(run)))  # type: ignore[misc]
+        measured(measure, blow.name, unit, runs[blow.name], lambda run, s=scale, get=get: s * get(run))  # type: ignore[misc]
         for blow in blows
         for measure, (unit, scale, get) in MEASURES.items()
         if blow.valve or measure not in OF_VALVES
@@ -205,16 +196,17 @@ def course_figure(runs: Mapping[str, Result], shown: Blow) -> Figure:
         "pin front_base [kN]": ("pin.front_base.force", 1e-3),
         "canopy [deg]": ("canopy.angle", DEGREES),
     }
-    bare = Struck(runs[replace(shown, pins="ideal", valve=False).name])
+    bare = runs[replace(shown, pins="ideal", valve=False).name]
     for axes, (label, (channel, scale)) in zip(panels.flat, courses.items(), strict=True):
         for pins, (colour, dashes) in LOOKS.items():
-            struck = Struck(runs[replace(shown, pins=pins).name])
-            time = 1e3 * (struck.of("time") - STRIKE)
-            axes.plot(time, scale * struck.of(channel), color=colour, ls=dashes, label=TITLES[pins])
+            run = runs[replace(shown, pins=pins).name]
+            time = 1e3 * (struck(run, "time") - STRIKE)
+            axes.plot(time, scale * struck(run, channel), color=colour, ls=dashes, label=TITLES[pins])
         axes.set(ylabel=label, xlim=(0.0, 120.0))
-    time = 1e3 * (bare.of("time") - STRIKE)
-    pressure = 1e-6 * bare.of("front_column.pressure")
-    panels[0, 0].plot(time, pressure, color=style.THIRD, lw=0.8, label="ideal, no valves")
+    time = 1e3 * (struck(bare, "time") - STRIKE)
+    panels[0, 0].plot(
+        time, 1e-6 * struck(bare, "front_column.pressure"), color=style.THIRD, lw=0.8, label="ideal, no valves"
+    )
     for axes in panels[1]:
         axes.set_xlabel("time after the strike [ms]")
     return finish(drawing, panels, 4)
@@ -250,7 +242,8 @@ def work(chosen: Options) -> StudyOutcome:
     hard = max({(one.mass, one.height) for one in blows}, key=lambda one: one[0] * one[1])
     shown = Blow(machines[0], "tip", *hard, "all", valve=True)
     opened = [one for one in valved if found["flow", one.name].value > 0.0]
-    tail = Counter(Struck(runs[one.name]).strongest_pin for one in blows if one.place == "tail beam")
+    on_tail = [runs[one.name] for one in blows if one.place == "tail beam"]
+    tail = Counter(max(ALL_PINS, key=lambda pin: most(run, "pin.{}.force", (pin,))) for run in on_tail)
     words = {
         "plan": plan,
         "run": sys.modules[__name__],

@@ -29,7 +29,6 @@ IMPACT_STEPS = 96  # of the coarsest of three runs of a free impact; fewer tell 
 RISE_STEP, RISE_IMPACT_STEPS = 2e-3, 32  # [s]
 OWN_GOAL = 1e-2  # by which those of one's own machine are chosen
 LOOP_RESTITUTION = 0.5
-RESTITUTION = paper_machine.RESTITUTION
 REST = {f"rest velocity {1e3 * w:g} mm/s": w for w in (1e-3, REST_VELOCITY, 5e-2, 0.1)}  # [m/s]
 SOFT = (5e-3, 2e-2, 0.2)  # impacts that tell which restitution a rest velocity leaves [m/s]
 KEY = (  # of the key table
@@ -113,7 +112,7 @@ class Joint:
     @property
     def restitution(self) -> float:
         """That all laws are asked for: the pin's law's, or the paper machine's."""
-        return float(getattr(self.pin.contact.normal, "restitution", RESTITUTION))
+        return float(getattr(self.pin.contact.normal, "restitution", paper_machine.RESTITUTION))
 
     @cached_property
     def laws(self) -> dict[str, tuple[forces.NormalLaw, forces.FrictionLaw]]:
@@ -170,9 +169,8 @@ class Joint:
         motion = self.subject.motion
         pin = replace(self.pin, contact=replace(self.pin.contact, normal=normal, friction=friction))
         case = to_accuracy(replace(motion, pins={**motion.pins, self.subject.pin: pin}))
-        return self._at_steps(case) if cheapest(case) == "exudyn" else case
-
-    def _at_steps(self, case: Scenario) -> Scenario:
+        if cheapest(case) != "exudyn":
+            return case
         if not self.subject.is_paper:
             return settings_for(case, OWN_GOAL)
         # of Newton's iterations a looser tolerance spares one a step; it changes means and spreads by 1e-6

@@ -1,6 +1,6 @@
 """Pictures of what contact laws deliver and change."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from string import ascii_lowercase
 
 import numpy as np
@@ -90,16 +90,11 @@ def loop_figure(results: Mapping[str, Result]) -> Figure:
         axes.plot(1e3 * elastic, 1e-3 * np.array(held), color="#999999", lw=0.8, ls=(0, (4, 2)))
         axes.set(xlim=(0, None), ylim=(0, None))
         axes.locator_params(nbins=3)
-    _label(panels.flat, results)
+    for letter, axes, name in zip(ascii_lowercase, panels.flat, results, strict=False):
+        axes.set_title(rf"$\bf{{{letter}}}$  {title(name)}", fontsize=7.5, loc="left")
     drawing.supxlabel("depth [mm]", fontsize=9)
     drawing.supylabel("normal force [kN]", fontsize=9)
     return drawing
-
-
-def _label(panels: Iterable[Axes], names: Iterable[str]) -> None:
-    """Letter and law of each panel, above its upper left corner."""
-    for letter, axes, name in zip(ascii_lowercase, panels, names, strict=False):
-        axes.set_title(rf"$\bf{{{letter}}}$  {title(name)}", fontsize=7.5, loc="left")
 
 
 def rise_figure(watched: Watched, numbers: Sequence[Number]) -> Figure:

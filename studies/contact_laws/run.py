@@ -151,7 +151,6 @@ def _words(found: Found, risen: Sequence[str]) -> dict[str, object]:
     peaks = {case: found[PEAK, case].value for case in risen if case not in frictions}
     return {
         "cases": cases,
-        "impact": cases,
         "title": title,
         "row_title": row_title,
         "offs": [abs(found[DELIVERED, one.case].value - one.value) for one in closed],

@@ -22,7 +22,7 @@ from support_exudyn import (
     UniformSpeed,
 )
 from support_exudyn.model.drives.drive import Drive
-from tests.metamorphic import drawn
+from tests.metamorphic import drawn, drawn_linkages
 from tests.metamorphic.moving import FROM_THE_START
 from tests.metamorphic.same import EvaluationContext, plain, run, scenes, told
 
@@ -65,12 +65,6 @@ def later(scene: Scenario, dwell: float) -> Scenario:
     )
 
 
-def delayed(scene: Scenario, milliseconds: int) -> None:
-    dwell = milliseconds * drawn.MS
-    one, other = run(scene), told(later(scene, dwell))
-    one.check(after(plain(other), milliseconds, dwell))
-
-
 def after(context: EvaluationContext, records: int, dwell: float) -> EvaluationContext:
     """From a record on, which is the first from then on."""
     found = {name: values[records:] for name, values in context.items()}
@@ -78,14 +72,20 @@ def after(context: EvaluationContext, records: int, dwell: float) -> EvaluationC
     return {name: v - v[0] if name.endswith(FROM_THE_START) else v for name, v in found.items()}
 
 
-@given(scene=drawn.in_general().map(settled), milliseconds=DWELLS)
-@scenes(8)
-def test_a_support_in_general(scene: Scenario, milliseconds: int) -> None:
-    delayed(scene, milliseconds)
+KINDS = {
+    "support in general": drawn.in_general().map(settled),
+    "support of bodies": drawn.in_bodies().map(settled),
+    "linkage": drawn_linkages.driven(from_rest=True),
+}
+SLOW = "support of bodies"
 
 
-@pytest.mark.slow
-@given(scene=drawn.in_bodies().map(settled), milliseconds=DWELLS)
+@pytest.mark.parametrize(
+    "kind", [pytest.param(kind, marks=[pytest.mark.slow] if kind == SLOW else []) for kind in KINDS]
+)
+@given(data=st.data(), milliseconds=DWELLS)
 @scenes(8)
-def test_a_support_of_bodies(scene: Scenario, milliseconds: int) -> None:
-    delayed(scene, milliseconds)
+def test_a_scene_that_begins_later_moves_alike(kind: str, data: st.DataObject, milliseconds: int) -> None:
+    scene, dwell = data.draw(KINDS[kind], label="scene"), milliseconds * drawn.MS
+    one, other = run(scene), told(later(scene, dwell))
+    one.check(after(plain(other), milliseconds, dwell))

@@ -1,4 +1,4 @@
-"""Drawn linkages: every formulation moves them alike, and they move alike wherever and however they lie."""
+"""Drawn linkages: every formulation moves them alike, and their statistics do not depend on records."""
 
 from __future__ import annotations
 
@@ -11,20 +11,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from support_exudyn import CubicStep, Onset, Result, Scenario, Steady
+from support_exudyn import Onset, Result, Scenario
 from support_exudyn.machines.check.statics import mobility
-from tests.metamorphic import drawn, drawn_linkages
-from tests.metamorphic.moving import MIRROR, UPSIDE_DOWN, Move, context, moved, turn
+from tests.metamorphic import drawn_linkages
 from tests.metamorphic.same import Run, ToldOnset, plain, run, scenes, told
-from tests.metamorphic.scaling import Scale
-from tests.metamorphic.test_delay import after, later
-from tests.metamorphic.test_rescale import rescaled, scales
 
 BETWEEN = 2e-3  # of the largest value in a unit: what two formulations may differ by besides their errors
 SLOWEST = 1e-9  # [m/s]
 GRAZE = 0.05  # of the fastest impact: whether there is one so slow is for rounding to decide
 AnyOnset = TypeVar("AnyOnset", Onset, ToldOnset)
-PLACES = st.tuples(drawn.between(-5.0, 5.0), drawn.between(-5.0, 5.0))  # [m]
 
 
 def nearest(onsets: Sequence[AnyOnset], time: float) -> AnyOnset:
@@ -99,60 +94,3 @@ def test_statistics_do_not_depend_on_records(scene: Scenario, formulation: str) 
         inside = fine.time >= 1e-3 - 1e-9  # 500 fine records and more are a curve
         mean = np.trapezoid(fine[name][inside], fine.time[inside]) / np.ptp(fine.time[inside])
         assert abs(one.mean - mean) <= 2e-3 * size, name
-
-
-@given(scene=drawn_linkages.driven())
-@scenes(8)
-def test_a_linkage_in_a_mirror_moves_alike(scene: Scenario) -> None:
-    for mirror in (MIRROR, UPSIDE_DOWN):
-        one, other = run(scene), told(moved(scene, mirror))
-        one.check(context(other, mirror.back))
-        one.check_touches(other)
-
-
-@given(scene=drawn_linkages.driven(), degrees=drawn.between(-180.0, 180.0))
-@scenes(8)
-def test_a_linkage_that_is_turned_moves_alike(scene: Scenario, degrees: float) -> None:
-    way = turn(degrees)
-    one, other = run(scene), told(moved(scene, way))
-    one.check(context(other, way.back))
-    one.check_touches(other)
-
-
-@given(scene=drawn_linkages.driven(), place=PLACES)
-@scenes(8)
-def test_a_linkage_elsewhere_moves_alike(scene: Scenario, place: tuple[float, float]) -> None:
-    way = Move(shift=place)
-    one, other = run(scene), told(moved(scene, way))
-    one.check(context(other, way.back))
-    one.check_touches(other)
-
-
-@given(
-    scene=drawn_linkages.sprung(),
-    way=st.sampled_from((MIRROR, UPSIDE_DOWN, turn(130.0), Move(shift=(2.0, -1.0)))),
-)
-@scenes(8)
-def test_a_linkage_with_springs_and_torques_moves_alike(scene: Scenario, way: Move) -> None:
-    one, other = run(scene), told(moved(scene, way))
-    one.check(context(other, way.back))
-    one.check_touches(other)
-
-
-def steadily(scene: Scenario) -> Scenario:
-    """The scene without strokes, whose unit is the metre, also where a crank makes them."""
-    return replace(scene, drive=Steady(rate=15.0)) if isinstance(scene.drive, CubicStep) else scene
-
-
-@given(scene=drawn_linkages.driven().map(steadily), scale=scales)
-@scenes(8)
-def test_a_linkage_of_another_size_moves_alike(scene: Scenario, scale: Scale) -> None:
-    rescaled(scene, scale)
-
-
-@given(scene=drawn_linkages.driven(from_rest=True), milliseconds=st.integers(1, 12))
-@scenes(6)
-def test_a_linkage_whose_drive_begins_later_moves_alike(scene: Scenario, milliseconds: int) -> None:
-    dwell = milliseconds * drawn.MS
-    one, other = run(scene), told(later(scene, dwell))
-    one.check(after(plain(other), milliseconds, dwell))
