@@ -91,7 +91,7 @@ pins.rear_bse.clearance_mm = 1 ~> pins.rear_bse: unknown pin 'rear_bse'; did you
 pins.rear_bse.ideal = true ~> pins.rear_bse: unknown pin 'rear_bse'; did you mean 'rear_base'
 [pins.rear_base]; clearance_mm = -1; bore_radius_mm = 65.5 -> pins.rear_base.clearance_mm = -1: allowed: >= 0
 [pins.rear_base]; clearance_mm = 70; bore_radius_mm = 65.5
-    ~> pins.rear_base: JournalBearing: clearance = 0.07 m: leaves no journal .. allowed: > 0
+    ~> pins.rear_base: clearance_mm = 70 .. bore_radius_mm = 65.5; allowed: > 0
 drive.mode = 3 -> drive.mode = 3: allowed: 1, 2
 [drive]; mode = 1; end_s = 1 ~> drive: end = 1.0 s: allowed: > start = 3.0 s
 drive.stroke_mm = 3 -> drive: says no mode, table or type; allowed: mode = 1 or 2

@@ -21,6 +21,7 @@ from user_forces import (
     Hertz,
     JournalBearing,
     JournalContact,
+    KelvinVoigt,
     PinInBore,
 )
 
@@ -180,3 +181,13 @@ def test_a_light_load_has_an_equilibrium_though_its_place_is_known_less_well_tha
     for mu in np.linspace(0.01, 0.5, 50):
         found = sliding_pin(journal(INVERSE_MASS * np.eye(2), np.array([0.0, 1.0])), contact(mu, line))
         assert found.normal_force == pytest.approx(1.0 / math.hypot(1.0, mu), rel=1e-6)
+
+
+def test_a_dashpot_damps_as_one() -> None:
+    stiffness, damping, mass = 5e8, 1e5, 2500.0
+    law = KelvinVoigt(stiffness=stiffness, damping=damping)
+    found = sliding_pin(journal(np.eye(2) / mass, np.array([LOAD, 0.0])), contact(0.0, law))
+    normal = found.roots[np.abs(found.roots.imag).argmax()]
+    half = 0.5 * damping / mass
+    assert abs(normal.imag) == pytest.approx(math.sqrt(stiffness / mass - half**2), rel=1e-6)
+    assert normal.real == pytest.approx(-half, rel=1e-6)

@@ -66,6 +66,14 @@ def test_at_a_constant_rate_gravity_and_the_centripetal_acceleration_are_felt(
     np.testing.assert_array_equal(found[:, 2], 0.0)
 
 
+def test_an_acceleration_that_grows_evenly_is_felt_exactly_to_both_ends() -> None:
+    still = np.zeros(TIME.size)
+    channels = {"angle": still, "angular_velocity": still, "velocity_x": 4.0 * TIME**2, "velocity_y": still}
+    channels |= {"x": still, "y": still}
+    run = synthetic.result(PLANE, TIME, {f"canopy.{name}": (one, "") for name, one in channels.items()})
+    np.testing.assert_allclose(specific_force(run, "canopy")[:, 0], -8.0 * TIME, atol=1e-11)
+
+
 def test_a_run_at_rest_reads_as_its_angles_and_a_base_as_none() -> None:
     result = simulate(replace(PLANE, duration=0.05, drive=CubicStep(start=1.0, end=2.0)))
     for body in PLANE.linkage.bodies:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +12,7 @@ import user_forces
 from studies.common.paper_machine import bearing
 from support_exudyn import ClearancePin, Scenario, reference_support
 from support_exudyn.files import parsed, read_value, scenario_of, table_of, toml_text
-from support_exudyn.files.scenarios.short_joints import simple_laws
+from support_exudyn.files.scenarios.short_joints import ShortPin, simple_laws
 from support_exudyn.files.toml.shapes import GroupShape, field_shapes
 from support_exudyn.model.simple_laws import USUAL_RESTITUTION
 from tests import strategies as some
@@ -35,6 +36,12 @@ def read(text: str) -> Scenario:
     return scenario_of(parsed(text, "a.toml"), "a.toml", Path())
 
 
+def defaults(cls: type[Value]) -> dict[str, Any]:
+    """Of its fields that have one."""
+    found = some.fields_of(cls).items()
+    return {name: info.get_default(call_default_factory=True) for name, info in found if not info.is_required()}
+
+
 @pytest.mark.parametrize("law", OUR_SIMPLE_LAWS)
 def test_a_pin_in_short_is_what_python_makes_of_the_same_inputs(law: str) -> None:
     kind: Any = GroupShape((NormalLaw,)).kinds[law]
@@ -47,6 +54,14 @@ def test_a_pin_in_short_is_what_python_makes_of_the_same_inputs(law: str) -> Non
     expected = Scenario(machine=reference_support(), duration=5.0, pins={"rear_base": pin})
     stiffness = 'stiffness = "paper"' if "stiffness" in some.fields_of(kind) else ""
     assert read(f'{TOP}{WITH_CLEARANCE}law = "{law}"\n{stiffness}') == expected
+
+
+def test_a_simple_pin_in_python_has_the_defaults_of_files() -> None:
+    ours = {name: one.default for name, one in inspect.signature(ClearancePin.simple).parameters.items()}
+    files = defaults(ShortPin)
+    assert (ours.pop("bore_material"), ours.pop("journal_material")) == (STEEL, STEEL_35CRMO)
+    said = {name: one for name, one in ours.items() if one is not inspect.Parameter.empty}
+    assert said == {name: files[name] for name in said}
 
 
 @pytest.mark.parametrize("kind", some.kinds(), ids=lambda cls: cls.__name__)

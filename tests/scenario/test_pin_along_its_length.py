@@ -77,7 +77,7 @@ def test_in_python_the_length_makes_the_choice() -> None:
         ({"stiffness": "external"}, "stiffness"),
         (
             {"stiffness": "paper", "backing_stiffness": "rigid"},
-            "backing_stiffness = inf: is of stiffness = 'cylinders'",
+            'backing_stiffness: is of stiffness = "cylinders"',
         ),
         ({"law": "Hertz", "stiffness": "cylinders"}, "law = Hertz: has a force of its own; allowed with"),
         ({"stiffness": "paper", "length_mm": -1}, "length_mm"),
@@ -91,7 +91,7 @@ def test_what_does_not_fit_is_told(keys: dict[str, object], told: str) -> None:
 
 def test_a_length_that_nobody_knows_is_asked_for() -> None:
     pins = {"slider_pin": {"clearance_mm": 0.5, "stiffness": "cylinders"}}
-    with pytest.raises(InputError, match=r"pins.slider_pin: length: missing"):
+    with pytest.raises(InputError, match=r"length_mm: missing, .*\[width_mm.pins\]"):
         simple_scenario("slider_crank", duration_s=0.1, drive={"type": "Steady", "rate_rpm": 10}, pins=pins)
     with pytest.raises(InputError, match=r"length: missing"):
         ClearancePin.simple(clearance=0.0015, bore_radius=0.0655, stiffness="cylinders")

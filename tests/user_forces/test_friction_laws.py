@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
@@ -247,3 +249,33 @@ def test_what_sticks_swings_on_the_bristles_spring_or_is_stopped_sooner(
         assert law(share * critical).swing_time(mass, force) == pytest.approx(times * swing, rel=1e-9)
     assert law(1.0).swing_time(mass, 0.0) == math.inf
     assert law(1.0).slip_speed(0.5) == 0.0
+
+
+@pytest.mark.parametrize(
+    ("slip", "steps", "order"),
+    [
+        (lambda t: 0.01 + 0.008 * math.sin(5e3 * t), 400, 4.0),  # always forward: 4 is of second order
+        (lambda t: 0.02 * math.sin(5e3 * t + 0.4), 3200, None),  # where in a step it reverses hangs on the step
+    ],
+)
+def test_next_deflection_is_of_second_order_for_a_varying_slip(
+    slip: Callable[[float], float], steps: int, order: float | None
+) -> None:
+    def motion(t: float, y: np.ndarray) -> list[float]:
+        v = slip(t)
+        return [1e6 * (v - 1e5 * abs(v) * 1e-6 * y[0] / size(v))]
+
+    def stepped(count: int) -> float:
+        z, h = 0.0, 1e-3 / count
+        for i in range(count):
+            z = LUGRE.next_deflection(z, 0.5 * (slip(i * h) + slip((i + 1) * h)), h)
+        return z
+
+    exact: Any = solve_ivp(motion, (0.0, 1e-3), [0.0], "DOP853", rtol=1e-11, atol=1e-12, max_step=1e-5)
+    end = 1e-6 * float(exact.y[0, -1])
+    coarse, fine = (abs(stepped(count) - end) for count in ((200 if order is None else steps // 2), steps))
+    if order is None:
+        assert coarse / fine > 50.0  # 256 for second order
+        assert fine < 1e-6 * 3e-6
+    else:
+        assert coarse / fine == pytest.approx(order, rel=0.01)

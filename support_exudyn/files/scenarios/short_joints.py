@@ -17,7 +17,7 @@ from support_exudyn.files.toml.shapes import Names
 from support_exudyn.model.guides import ClearanceGuide, Gaps, Guide, IdealGuide
 from support_exudyn.model.machine import Machine
 from support_exudyn.model.pin_surroundings import contact_length, links_stiffness
-from support_exudyn.model.pins import ClearancePin, IdealPin, Stiffness, on_cylinders
+from support_exudyn.model.pins import CYLINDERS, ClearancePin, IdealPin, Stiffness, on_cylinders
 from support_exudyn.model.simple_laws import friction_of
 from user_forces.backing import in_series, pin_stiffness
 from user_forces.friction.law import FrictionLaw
@@ -213,13 +213,29 @@ def pin_in_machine(short: ShortPin, machine: Machine, name: str, bore_radius: fl
         machine: with or without a pin of this name; without, length and links are unknown.
         name: of the pin.
         bore_radius: of the machine's file [m], None if it has none.
+
+    Raises InputError, in the keys and units of files, if the journal fills the bore or a length is missing.
     """
     law, length, radius = short.law_class, short.length, short.radius(bore_radius)
+    if short.clearance >= radius:
+        raise InputError(
+            f"clearance_mm = {1e3 * short.clearance:g}: leaves no journal in a bore of bore_radius_mm = "
+            f"{1e3 * radius:g}; allowed: > 0 and < {1e3 * radius:g}"
+        )
     bore, journal = _material(short.bore_material, STEEL), _material(short.journal_material, STEEL_35CRMO)
     is_known = name in machine.linkage().pins
     if length is None and is_known:
         length = contact_length(machine, name)
+    if short.stiffness == CYLINDERS and length is None:
+        raise InputError(
+            "length_mm: missing, and the machine's file has none for this pin below [width_mm.pins]; "
+            "allowed: > 0, here or there"
+        )
     along = on_cylinders(short.stiffness, length, law)
+    if short.backing_stiffness is not None and not along:
+        raise InputError(
+            'backing_stiffness: is of stiffness = "cylinders" alone; allowed without it: to leave this out'
+        )
     backing = math.inf if short.backing_stiffness == "rigid" else short.backing_stiffness
     if not isinstance(backing, float):
         backing = None

@@ -7,6 +7,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from scipy.integrate import trapezoid
 
 from support_exudyn import Result, Scenario, SolverSettings, simulate
 from tests.formulations.hydraulics.integrated import Stand, Trajectory
@@ -112,3 +113,36 @@ def test_energy_adds_up(name: str) -> None:
         float(np.ptp(result[f"energy.{kind}"])) for kind in ("kinetic", "potential", "elastic", "work")
     )
     assert result.energy_error < 1e-7 * turned
+
+
+@pytest.mark.parametrize(
+    ("name", "loss"),
+    [
+        ("column, yield valve", "yield_loss"),
+        ("cylinder, hysteresis", "yield_loss"),
+        ("column, line", "line_loss"),
+        ("column, seals", "seal_loss"),
+    ],
+)
+def test_what_an_element_takes_is_flow_times_drop(name: str, loss: str) -> None:
+    """By the trapezoidal rule over records of the reference, which knows no energy."""
+    scenario = CASES[name]
+    leg = scenario.actuators["leg0"]
+    times = np.linspace(0.0, scenario.duration, 8_001)
+    found = Stand(scenario).run(times, rtol=1e-9)
+    p, rate = found["leg0.p"], found["leg0.v"]
+    if loss == "yield_loss":
+        tank = getattr(leg, "tank_pressure", 0.0)
+        flow = np.gradient(found["leg0.out"], times)
+        modulus = leg.bulk_modulus
+        volume = flow * np.exp(-p / modulus) if hasattr(leg, "inlet") else flow
+        power = volume * (p - tank)
+    elif loss == "line_loss":
+        power = (found["leg0.pl"] - p) ** 2 / leg.line.resistance
+    else:
+        seal = leg.seal_friction
+        bump = (seal.static - seal.coulomb) * np.exp(-((rate / seal.stribeck_speed) ** 2))
+        power = (seal.coulomb + bump) * np.tanh(rate / seal.transition_speed) * rate
+    wanted = trapezoid(power, times)
+    result = run(name)
+    assert result[f"leg0.{loss}"][-1] == pytest.approx(wanted, rel=1e-5)
