@@ -96,7 +96,11 @@ HEAVY, HEAVY_ON_OIL = cylinders_and_rods(), cylinders_and_rods(OIL["front_column
 ON_JACK = {"tail_beam": OwnBody(jack=paper_machine.JACK)}
 PINS = tuple(reference_support().linkage().pins)
 ALL_SMOOTH, ALL_ROUGH, ALL_RUBBING = (dict.fromkeys(PINS, pin) for pin in (SMOOTH, ROUGH, RUBBING))
-FULL = {"pins": ALL_ROUGH, "actuators": HEAVY_ON_OIL, "parts": ON_JACK}  # fields of the fullest scene
+FULL: dict[str, Any] = {
+    "pins": ALL_ROUGH,
+    "actuators": HEAVY_ON_OIL,
+    "parts": ON_JACK,
+}  # fields of the fullest scene
 Elements = dict[str, dict[str, Any]]  # fields that differ from those of the reference, by name
 ADDED: Elements = {  # to the plainest scene
     "clearance, rear pin": {"pins": {REAR: SMOOTH}},
