@@ -328,7 +328,7 @@ def benchmark(*, out: Path = HERE) -> int:
 
 
 def write_results(out: Path, points: Sequence[TradePoint]) -> None:
-    """Print the table of all settings; write it into RESULTS.md, and the figure beside it."""
+    """Print the table of all settings; write it into RESULTS.md, and the figure into the same folder."""
     sheet = table(points)
     rows = (sheet.header, ["---"] * len(sheet.header), *sheet.rows)
     packages = ", ".join(f"{name} {number}" for name, number in versions().items())

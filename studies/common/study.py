@@ -128,8 +128,8 @@ class Study:
         A study with a witness names engine and method in every caption, and what the witness confirms.
         """
         subject, of_all = chosen.subject, found.numbers
-        told = {"subject": subject, "runs": found.runs, "found": by_case(of_all), **found.words}
-        blocks = filled(self.template, told)
+        numbers = {"subject": subject, "runs": found.runs, "found": by_case(of_all), **found.words}
+        blocks = filled(self.template, numbers)
         blocks.setdefault(NUMBERS, [ALL_NUMBERS])
         tables = {**found.tables, NUMBERS: text_table(*number_rows(of_all), left=3)}
         sheets = {name: titled(table, name, blocks) for name, table in tables.items()}

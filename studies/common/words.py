@@ -54,12 +54,12 @@ def templates() -> Environment:
     return surroundings
 
 
-def filled(template: str, told: Mapping[str, object]) -> dict[str, list[str]]:
+def filled(template: str, numbers_by_name: Mapping[str, object]) -> dict[str, list[str]]:
     """Paragraphs and items of lists of a filled template, each in one line, by their heading."""
     found: dict[str, list[str]] = {}
     here: list[str] = []
     begins = True
-    for line in templates().get_template(template).render(told).splitlines():
+    for line in templates().get_template(template).render(numbers_by_name).splitlines():
         text = " ".join(line.split())
         if line.startswith("#"):
             here = found.setdefault(text.lstrip("# "), [])

@@ -182,7 +182,7 @@ def largest_restitution(result: Result) -> float:
     """The largest restitution of a free impact over that of its law; nan if there was none.
 
     An impact is free if nothing rubs, no other contact or impulse falls into it, and little pulls the journal:
-    gravity, and what drives do to it, which the known time of flight of a running machine tells; of other
+    gravity, and what drives do to it, which follows from the known flight of a running machine; of other
     drives it is a guess. A free impact slower than the rest velocity is damped less.
     """
     scenario, pins = result.scenario, result.scenario.clearance_pins
@@ -226,7 +226,7 @@ def _halved(result: Result) -> tuple[Result, Result] | None:
         if finer == result.scenario:
             return None
         return result, simulate(replace(finer, solver=replace(finer.solver, most_steps=most)))
-    # so many steps an impact are not allowed; or it cannot be told, and those that gave the error have agreed
+    # so many steps an impact are not allowed; or this is not known, and those that gave the error have agreed
     except (InputError, SimulationError):
         return None
 

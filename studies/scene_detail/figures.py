@@ -74,7 +74,7 @@ def figures(measured: Mapping[str, MeasuredScene]) -> dict[str, Figure]:
 
 
 def change_figure(measured: Mapping[str, MeasuredScene]) -> Figure:
-    """A row for each element, named beside it; a panel for each number that it changes, and for its cost.
+    """A row for each element, named at its left; a panel for each number that it changes, and for its cost.
 
     An element that has another reference than the others of its group has a star.
     """

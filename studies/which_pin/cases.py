@@ -158,7 +158,7 @@ class PinPlan:
         if self.watched.window < 2.0 * period:
             raise InputError(
                 f"motion from {self.watched.start:g} to {self.watched.end:g} s, a record every {period:g} s: "
-                f"allowed: longer than {40.0 * period:g} s, to tell fluctuations from the trend, or more "
+                f"allowed: longer than {40.0 * period:g} s, to separate fluctuations from the trend, or more "
                 "records"
             )
         motion = replace(self.motion, formulation="exudyn")

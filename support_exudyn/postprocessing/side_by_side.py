@@ -15,7 +15,6 @@ from support_exudyn.postprocessing.figures import overlay, style
 from support_exudyn.postprocessing.result_table import ResultTable
 from support_exudyn.postprocessing.shown_numbers import numbers, shown, side_by_side
 from support_exudyn.simulation.estimate import Estimate
-from support_exudyn.simulation.recorded_run import library
 from support_exudyn.simulation.result import Result
 from user_forces.values.names import Named
 from user_forces.values.value import InputError, short
@@ -53,7 +52,7 @@ class RunsSideBySide:
 
     @cached_property
     def printed(self) -> list[dict[str, Estimate]]:
-        """Of each run the numbers that are printed, see `shown`."""
+        """The numbers of each run that `rows` and the printed table contain, as `shown` chooses them."""
         return shown([*self.runs.values()], self._of_runs, self.after, self.until)
 
     def rows(self) -> list[tuple[str, ...]]:
@@ -62,11 +61,9 @@ class RunsSideBySide:
         return [(name, *side_by_side([found.get(name) for found in self.printed])) for name in names]
 
     def to_pandas(self) -> pd.DataFrame:
-        """A row for each number, in SI: `unit`, and of each run its value and `NAME error`.
+        """A row for each number, in SI: `unit`, and of each run its value and `NAME error`."""
+        import pandas  # it takes a third of a second
 
-        Raises InputError if pandas is not installed.
-        """
-        pandas = library("pandas", "to_pandas")
         table = {}
         for name, found in self.numbers.items():
             row: dict[str, object] = {"unit": next(iter(found.values())).unit}

@@ -7,8 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 from functools import cached_property
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -162,12 +161,13 @@ class RecordedRun:
         return self[name]
 
 
-# --- tables of pandas and xarray, which need not be installed ---
+# --- tables of pandas and xarray ---
 
 
 def to_pandas(run: RecordedRun) -> pd.DataFrame:
     """See `Result.to_pandas`."""
-    pandas = library("pandas", "to_pandas")
+    import pandas  # it takes a third of a second
+
     columns = {name: channel.values for name, channel in run.channels.items() if name != "time"}
     frame = pandas.DataFrame(columns, index=pandas.Index(run.time, name="time"))
     frame.attrs = {
@@ -179,7 +179,13 @@ def to_pandas(run: RecordedRun) -> pd.DataFrame:
 
 def to_xarray(run: RecordedRun) -> xr.Dataset:
     """See `Result.to_xarray`."""
-    xarray = library("xarray", "to_xarray")
+    try:
+        import xarray
+    except ModuleNotFoundError:
+        raise InputError(
+            "to_xarray: needs xarray, which is not installed; allowed: after "
+            "python -m pip install 'support-exudyn[data]'"
+        ) from None
     series = {
         name: ("time", channel.values, {"units": channel.unit, "long_name": channel.meaning})
         for name, channel in run.channels.items()
@@ -187,14 +193,3 @@ def to_xarray(run: RecordedRun) -> xr.Dataset:
     time = series.pop("time")
     about = {"machine": type(run.scenario.machine).__name__, "formulation": run.scenario.formulation}
     return xarray.Dataset(series, {"time": time}, {**about, **run.provenance})
-
-
-def library(name: str, what: str) -> Any:
-    """A library that need not be installed; what: asks for it. Raises InputError if it is not there."""
-    try:
-        return import_module(name)
-    except ModuleNotFoundError:
-        raise InputError(
-            f"{what}: needs {name}, which is not installed; allowed: after "
-            "python -m pip install 'support-exudyn[data]'"
-        ) from None

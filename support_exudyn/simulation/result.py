@@ -140,7 +140,7 @@ class Result(RecordedRun):
     def to_pandas(self) -> pd.DataFrame:
         """All channels as a table: a row for each record, the index its time [s], all in SI.
 
-        `attrs` has "units" and "meanings" by name. Raises InputError if pandas is not installed.
+        `attrs` has "units" and "meanings" by name.
         """
         return to_pandas(self)
 

@@ -272,8 +272,8 @@ def scenario_schema() -> dict[str, Any]:
     ideal = {"ideal": {"const": True, "description": "ideal, as all are that no table speaks of"}}
     for base, kind, short in ((Pin, IdealPin, ShortPin), (Guide, IdealGuide, ShortGuide)):
         schemas.besides[base] = [schemas.table(short, typed=False), _with_key(schemas, kind, ideal)]
-    said = "1: constant speed from rest, without transition (`UniformSpeed`); 2: a smooth inlet (`CubicStep`)."
-    mode = _with_key(schemas, UniformSpeed, {"mode": {"enum": [1, 2], "description": said}})
+    modes = "1: constant speed from rest, without transition (`UniformSpeed`); 2: a smooth inlet (`CubicStep`)."
+    mode = _with_key(schemas, UniformSpeed, {"mode": {"enum": [1, 2], "description": modes}})
     mode["description"] = (
         "A stroke in one of the paper's drive modes, by default the stroke of the machine's file."
     )

@@ -263,7 +263,7 @@ def series_file(
     if not series:
         phrase = f"has no series {first_names(asked.names)}; allowed: its own names"
         if not asked.names:
-            phrase = "has times and nothing else; allowed: a column of numbers beside them"
+            phrase = "has times and nothing else; allowed: at least one column of numbers besides times"
         raise InputError(" ".join((f"{path}: {phrase}.", *remarks))[:-1])
     return SeriesFile(path, kind, series, tuple(remarks), tuple(changes))
 

@@ -5,7 +5,7 @@
 
 A stamp with the year first is year, month, day; with points day, month, year. With strokes or hyphens and the
 year last, the whole column determines which of the first two numbers is the day: the other order has no such
-day, or goes back. Where both remain, AM and PM tell that the month is first. Other stamps are refused.
+day, or goes back. Where both remain, AM and PM show that the month is first. Other stamps are refused.
 """
 
 from __future__ import annotations

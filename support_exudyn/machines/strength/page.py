@@ -182,7 +182,7 @@ def _buckled(report: StandReport) -> Iterator[str]:
 
 def _tipped(report: StandReport) -> Iterator[str]:
     if report.tipping is None:
-        yield "6 standing free: not told, no base is described"
+        yield "6 standing free: not computed, the file describes no base"
         return
     yield "6 standing free, all postures: inclination of the floor at which it tips [plain: statics]"
     least = {way: min(one.angles[way] for one in report.tipping) for way in report.tipping[0].angles}

@@ -86,8 +86,8 @@ def render(
     movies.check(movie, frames_per_second, shown.times.size)
     target = None
     if movie != "none":
-        beside = folder.with_name(f"{folder.name.removesuffix('_frames') or folder.name}.{movie}")
-        target = beside if movie_path is None else Path(movie_path)
+        usual = folder.with_name(f"{folder.name.removesuffix('_frames') or folder.name}.{movie}")
+        target = usual if movie_path is None else Path(movie_path)
     show = _Show(result, size or (OF_GIF if movie == "gif" else SIZE), pin, shown)
     names = [NAME.format(n) for n in range(shown.times.size)]
     earlier = [old.name for old in folder.glob("*") if FRAME.fullmatch(old.name) and _is_ours(old)]
