@@ -226,7 +226,7 @@ def _halved(result: Result) -> tuple[Result, Result] | None:
         if finer == result.scenario:
             return None
         return result, simulate(replace(finer, solver=replace(finer.solver, most_steps=most)))
-    # so many steps an impact are not allowed; or this is not known, and those that gave the error have agreed
+    # too many steps an impact, or the check fails: then the runs that gave the error have agreed
     except (InputError, SimulationError):
         return None
 
