@@ -23,4 +23,4 @@ class AtOnce(Executor):
 
 def at_once() -> Workers:
     """What studies, sweeps and `run_all` take in place of a number of workers."""
-    return Workers([0.0], AtOnce)
+    return Workers([0.0, 0.0], AtOnce)

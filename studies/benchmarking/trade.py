@@ -169,7 +169,7 @@ PROGRAMS: Mapping[str, PeerProgram] = {
 
 def measured(with_slow: bool = False) -> Iterator[TradePoint]:
     """Run the programs that are installed, each by all its settings."""
-    warm_up(with_legs=False)
+    warm_up()
     scenario, exact = rise(), exact_force().value
     for program in PROGRAMS.values():
         if program.package and find_spec(program.package) is None:

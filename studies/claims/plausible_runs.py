@@ -219,7 +219,7 @@ def run_machines(
             rows[n] = MachineRow.model_validate_json(contents(place, LARGEST_FILE))
     missing = [n for n in range(len(samples)) if n not in rows]
     if missing:
-        warm_up(with_legs=False)  # compile once, for all processes
+        warm_up()  # compile once, for all processes
 
         def ended(error: ProcessEndedError) -> MachineRow:  # not kept, so that it is tried again
             return MachineRow(sample=dict(samples[missing[error.place]]), measures=None, failure=error.reason)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from copy import copy
 from dataclasses import replace
 from functools import cached_property
 from typing import Any
@@ -58,6 +59,17 @@ class Scenario(ScenarioData):
     def recorded_every(self) -> float:
         """Time between records [s]: that which is given, or that which follows the machine."""
         return self.record_period or default_period(self)
+
+    def recorded_as(self, channels: tuple[str, ...], period: float) -> Scenario:
+        """The same run with other channels and another time between records [s].
+
+        It is not checked again, and what has been computed of the machine is kept.
+        """
+        other = copy(self)
+        for name in ("recorded_every", "plain"):
+            other.__dict__.pop(name, None)
+        other.__dict__.update(channels=channels, record_period=period)
+        return other
 
     def refined(self, factor: float = 2) -> Scenario:
         """The run with all steps, also those of impacts, so many times shorter.

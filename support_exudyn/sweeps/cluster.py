@@ -3,13 +3,13 @@
 import logging
 import sys
 import threading
-from collections.abc import Generator, Iterable, Iterator
+from collections.abc import Generator, Iterable
+from itertools import islice
 from typing import Any
 
-from support_exudyn.simulation.result import with_digest
 from support_exudyn.sweeps.key import program
 from support_exudyn.sweeps.store import Pieces, Store, StoredRun
-from support_exudyn.sweeps.work import Task, computed, image_of, run_into
+from support_exudyn.sweeps.work import Task, computed, image_of
 from user_forces.values.value import InputError
 
 AHEAD = 2  # runs for each thread of the cluster that wait there, so that none waits for us
@@ -41,33 +41,19 @@ def on_cluster(tasks: Iterable[Task], store: Store, address: str) -> Generator[S
             room = max(FEWEST, AHEAD * sum(client.nthreads().values()))
         except OSError:  # of a connection that is closed
             raise lost from None
-        while len(under_way) < room and (task := next(here, None)) is not None:
+        for task in islice(source, max(0, room - len(under_way))):
             # a name of its own every time: else the cluster might hold what an earlier sweep has left there
             future = client.submit(_remote, task, program(), pure=False)
             under_way[future] = task
             done.add(future)
 
-    kept: list[StoredRun] = []
-
-    def to_run() -> Iterator[Task]:
-        for task in source:
-            if task.again:  # it is read from our own disk
-                kept.append(run_into(store, task))
-            else:
-                yield task
-
     if not client.nthreads():
         print(f"{address}: no worker is there yet; waiting", file=sys.stderr, flush=True)
-    here = to_run()
     with client:
         done = as_completed(loop=client.loop)
         try:
             further(done)
-            while under_way or kept:
-                while kept:
-                    yield kept.pop()
-                if not under_way:
-                    break
+            while under_way:
                 future = next(done)
                 task = under_way.pop(future)
                 try:
@@ -132,4 +118,4 @@ def _remote(task: Task, ours: dict[str, str]) -> tuple[StoredRun, Pieces]:
         raise InputError(f"a worker of the cluster runs another program ({said}); allowed: the same everywhere")
     with ONE:
         row, result = computed(task)
-    return row, with_digest(image) if (image := image_of(task, result)) is not None else ()
+    return row, image_of(task, result)

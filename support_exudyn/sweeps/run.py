@@ -4,7 +4,7 @@ import os
 import pickle
 import time
 from collections.abc import Callable, Iterator
-from contextlib import closing
+from contextlib import closing, suppress
 from dataclasses import dataclass
 from itertools import chain
 from pathlib import Path
@@ -19,11 +19,10 @@ from support_exudyn.sweeps.store import Store, StoredRun
 from support_exudyn.sweeps.table import FILE, SweepTable
 from support_exudyn.sweeps.work import (
     Task,
-    Wanted,
     in_processes,
     in_threads_first,
     reason_of,
-    refused,
+    row_of,
     suits_threads,
 )
 from user_forces.values.names import nearest
@@ -150,7 +149,7 @@ class _Keeper:
     ) -> None:
         self.table = SweepTable(plan)
         self._plan, self._store, self._outcome = plan, store, outcome
-        self._wanted = Wanted(plan.scenario, plan.record, plan.errors, retry_failed)
+        self._retry_failed = retry_failed
         self._progress = progress
         self._places: dict[str, list[int]] = {}  # of keys under way
         self._rows: dict[str, int] = {}  # of keys that are known: where
@@ -159,7 +158,7 @@ class _Keeper:
 
     def run(self, scheduler: str, workers: int) -> None:
         """Run what is not known; if all is, no process is started."""
-        tasks = self.tasks()
+        tasks = self._missing()
         if (first := next(tasks, None)) is None:
             return
         tasks = chain([first], tasks)
@@ -175,12 +174,24 @@ class _Keeper:
             for row in rows:
                 self._note(self._places[row.key], row)
 
-    def tasks(self) -> Iterator[Task]:
-        """What is to be run, made while others run; all else goes straight into the table."""
+    def _missing(self) -> Iterator[Task]:
+        """What is to be run; of runs that are kept other numbers are noted at once."""
+        for task, kept in self.tasks():
+            if kept:
+                with suppress(InputError, OSError):  # damaged since, in a way that its size and age do not tell
+                    row = row_of(task, Result.load(self._store.run_file(task.key)))
+                    self._note(self._places[task.key], self._store.put(row))
+                    continue
+            yield task
+
+    def tasks(self) -> Iterator[tuple[Task, bool]]:
+        """What is not known, and whether its run is kept; all else goes straight into the table."""
         for number, point in enumerate(self._plan.points):
             try:
-                task = self._wanted.task(point)
-                pickle.dumps(task.scenario)  # as it is sent to other processes
+                scenario = self._plan.scenario(point)
+                self._plan.record.check(scenario)
+                task = Task(key(scenario, self._plan.errors), scenario, self._plan.record, self._plan.errors)
+                pickle.dumps(scenario)  # as it is sent to other processes
             except Exception as error:  # of classes of one's own any
                 self._refuse(number, error)
                 continue
@@ -191,35 +202,44 @@ class _Keeper:
             places.append(number)
             if len(places) > 1 and task.key not in self._rows:
                 continue  # it is under way
-            found = self._wanted.looked_up(self._store, task)
-            if isinstance(found, Task):
-                yield found
+            row = self._store.row(task.key)
+            whole = row is not None and row.status == "done" and self._store.has_run(row)
+            if row is None or not self._is_good(row, whole):
+                yield task, whole
                 continue
             self._outcome.found += len(places) == 1
             self._rows[task.key] = number
-            self._set([number], found)
+            self._set([number], row)
         if len(self._refused) == len(self._plan.points):
             raise self._refused[0]  # that is no sweep
 
+    def _is_good(self, row: StoredRun, whole: bool) -> bool:
+        """Whether what is known of a run is what is wanted; whole: the run itself is there, too."""
+        if row.status == "failed":
+            return not self._retry_failed
+        record = self._plan.record
+        return row.status == "done" and row.noted == record.digest and (whole or not record.keep_runs)
+
     def _refuse(self, number: int, error: Exception) -> None:
         self._refused.append(error if isinstance(error, InputError) else InputError(reason_of(error)))
-        self._set([number], refused(error))
+        self._set([number], StoredRun("", "failed", reason_of(error)))
 
     def _check_numbers(self, scenario: Scenario, first: int) -> None:
         """Raise InputError for a number that no run can have.
 
         A run with an ideal pin has fewer than one with clearance, so others are looked at, too.
         """
-        others = self._plan.points[first + 1 :][:LOOKED_AT]
+        points = self._plan.points[first:][: LOOKED_AT + 1]
         for name in self._plan.record.numbers:
-            if not _has_number(scenario, name) and not any(self._can_have(name, point) for point in others):
+            if not any(self._can_have(name, point) for point in points):
                 check_numbers(scenario, [name])
 
     def _can_have(self, name: str, point: Inputs) -> bool:
         try:
-            return _has_number(self._plan.scenario(point), name)
+            check_numbers(self._plan.scenario(point), [name])
         except Exception:  # of classes of one's own any
             return False
+        return True
 
     def _note(self, numbers: list[int], row: StoredRun) -> None:
         """Note a run that has ended."""
@@ -233,7 +253,7 @@ class _Keeper:
         for name, numbers in self._places.items():
             if name not in self._rows:
                 row = self._store.row(name)
-                if row is not None and self._wanted.is_good(row, True):
+                if row is not None and self._is_good(row, True):
                     self._rows[name] = numbers[0]
                     self._set(numbers, row)
 
@@ -250,11 +270,3 @@ class _Keeper:
         self.table.write(self._store.folder)
         self._written = time.monotonic()
         self._wait = max(SELDOM, (self._written - began) / SHARE)
-
-
-def _has_number(scenario: Scenario, name: str) -> bool:
-    try:
-        check_numbers(scenario, [name])
-    except InputError:
-        return False
-    return True

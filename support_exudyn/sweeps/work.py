@@ -1,12 +1,11 @@
 """What is done for a run of a sweep, and the runs in processes on this machine."""
 
-import tempfile
 import threading
 import time
 from collections.abc import Callable, Generator, Iterable, Iterator, Mapping
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
-from dataclasses import dataclass, replace
-from itertools import count, islice
+from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 
 from support_exudyn.files.whole_file import workshop
@@ -17,10 +16,10 @@ from support_exudyn.scene.contract import Failure, Progress, SimulationError, er
 from support_exudyn.simulation.automatic_settings import covered, settings_for
 from support_exudyn.simulation.result import Result, with_digest
 from support_exudyn.simulation.simulate import simulate
-from support_exudyn.sweeps.key import key, own_sources
+from support_exudyn.sweeps.key import own_sources
 from support_exudyn.sweeps.measures import channels_of, numbers
-from support_exudyn.sweeps.plan import Inputs, Record
-from support_exudyn.sweeps.store import Store, StoredRun
+from support_exudyn.sweeps.plan import Record
+from support_exudyn.sweeps.store import Pieces, Store, StoredRun
 from support_exudyn.sweeps.workers import ProcessEndedError, Workers, keep_memory, report, worker_pool
 from user_forces.values.value import InputError, cleaned
 
@@ -30,41 +29,12 @@ THREADS_AHEAD = 2  # runs for each thread, one of them waiting
 
 @dataclass(frozen=True)
 class Task:
-    """A run to make, or, if `again` is set, one that is kept and of which other numbers are to be noted."""
+    """A run to make."""
 
     key: str
     scenario: Scenario
     record: Record
     errors: bool = False
-    again: bool = False
-
-
-@dataclass(frozen=True)
-class Wanted:
-    """What a sweep makes of its points, see `Plan`, and whether it runs again what has failed before."""
-
-    scenario: Callable[[Inputs], Scenario]
-    record: Record
-    errors: bool = False
-    retry_failed: bool = False
-
-    def task(self, inputs: Inputs) -> Task:
-        """The run of a point. Raises what `scenario` does; InputError if nothing of it would be noted."""
-        scenario = self.scenario(inputs)
-        self.record.check(scenario)
-        return Task(key(scenario, self.errors), scenario, self.record, self.errors)
-
-    def looked_up(self, store: Store, task: Task) -> StoredRun | Task:
-        """What the store has of a run, if that is what is wanted; otherwise what is to be done."""
-        row = store.row(task.key)
-        whole = row is not None and row.status == "done" and store.has_run(row)
-        return row if row is not None and self.is_good(row, whole) else replace(task, again=whole)
-
-    def is_good(self, row: StoredRun, whole: bool) -> bool:
-        """Whether what is known of a run is what is wanted; whole: the run itself is there, too."""
-        if row.status == "failed":
-            return not self.retry_failed
-        return row.status == "done" and row.noted == self.record.digest and (whole or not self.record.keep_runs)
 
 
 def reduced(scenario: Scenario, record: Record) -> Scenario:
@@ -74,9 +44,10 @@ def reduced(scenario: Scenario, record: Record) -> Scenario:
     """
     if not is_compiled(scenario):
         return scenario
-    period = max(scenario.recorded_every, rounded(scenario.duration / MOST_RECORDS, 0.0))
+    # of itself a scenario has no fewer records
+    period = max(scenario.record_period or 0.0, rounded(scenario.duration / MOST_RECORDS, 0.0))
     channels = scenario.channels if not record.numbers else channels_of(record.numbers, scenario)
-    return replace(scenario, channels=channels, record_period=min(period, scenario.duration))
+    return scenario.recorded_as(channels, min(period, scenario.duration))
 
 
 def is_compiled(scenario: Scenario) -> bool:
@@ -124,84 +95,44 @@ def row_of(task: Task, result: Result) -> StoredRun:
     return StoredRun(task.key, "done", reason, result.wall_time, found, task.record.digest)
 
 
-def image_of(task: Task, result: Result | None) -> bytearray | None:
-    """The bytes of a run that is to be kept, see `Result.image`; None if it is not, or has failed."""
-    return result.image() if result is not None and task.record.keep_runs else None
+def image_of(task: Task, result: Result | None) -> Pieces:
+    """The bytes of the file of a run that is to be kept, in pieces; none if it is not, or has failed."""
+    return with_digest(result.image()) if result is not None and task.record.keep_runs else ()
 
 
-def run_into(store: Store, task: Task) -> StoredRun:
-    """Run it, or read it if it is kept, and put all of it into the store."""
-    return _put(store, *_row_and_image(store, task))
-
-
-def _row_and_image(store: Store, task: Task, progress: Progress = silent) -> tuple[StoredRun, bytearray | None]:
-    if task.again:
-        try:
-            return row_of(task, Result.load(store.run_file(task.key))), None
-        except (InputError, FileNotFoundError):  # damaged since, and in a way that its size and age do not tell
-            pass
+def run_into(store: Store, task: Task, progress: Progress = silent, within: Path | None = None) -> StoredRun:
+    """Run it, and put all of it into the store; within: see `whole_file`."""
     row, result = computed(task, progress)
-    return row, image_of(task, result)
-
-
-def _put(store: Store, row: StoredRun, image: bytearray | None, within: Path | None = None) -> StoredRun:
-    return store.put(row, () if image is None else with_digest(image), within)
+    return store.put(row, image_of(task, result), within)
 
 
 # --- in processes ---
-
-LONG = 0.3  # [s] that a chunk is to take
-MOST = 64  # runs of a chunk
-Chunk = tuple[float, list[StoredRun]]  # how long it took [s], and its rows
 
 
 def in_processes(tasks: Iterable[Task], store: Store, workers: int) -> Generator[StoredRun, None, None]:
     """Rows as they come; each process puts its runs into the store by itself.
 
-    Small runs are sent many at a time. Of those whose process ends each is tried by itself in the end; if its
-    process ends again its row is "killed".
+    The row of a run whose process ends, also when it is tried by itself, is "killed".
 
     workers: number of processes, >= 1.
     """
-    source = iter(tasks)
-    under_way: dict[int, list[Task]] = {}
-    lost: list[Task] = []
-    size = 1  # of a chunk, by what the last one took
+    keys: dict[int, str] = {}  # of runs under way
 
-    def chunks() -> Iterator[tuple[Store, list[Task]]]:
-        for number in count():
-            if not (chunk := list(islice(source, size))):
-                return
-            under_way[number] = chunk
-            yield store, chunk
+    def jobs() -> Iterator[tuple[Store, Task]]:
+        for number, task in enumerate(tasks):
+            keys[number] = task.key
+            yield store, task
 
     with worker_pool(workers) as pool:
-        for number, found in pool.stream(chunks(), _do):
-            chunk = under_way.pop(number)
-            if isinstance(found, ProcessEndedError):
-                lost += chunk
-            else:
-                seconds, ended = found
-                size = max(1, min(MOST, int(LONG * len(chunk) / max(seconds, 1e-9))))
-                yield from ended
-        for number, found in pool.stream([(store, [task]) for task in lost], _do, alone=True):
-            if isinstance(found, ProcessEndedError):
-                yield StoredRun(lost[number].key, "killed", found.reason)
-            else:
-                yield from found[1]
+        for number, found in pool.stream(jobs(), _do):
+            key = keys.pop(number)
+            yield StoredRun(key, "killed", found.reason) if isinstance(found, ProcessEndedError) else found
 
 
-def _do(place: int, store: Store, tasks: list[Task]) -> Chunk:
-    """In a worker: runs of tasks; each is written while the next is computed, and waited for after that."""
-    began, rows = time.perf_counter(), list[Future[StoredRun]]()
-    with workshop(store.folder) as within, ThreadPoolExecutor(1) as writer:
-        for task in tasks:
-            row, image = _row_and_image(store, task)
-            if rows:
-                rows[-1].result()
-            rows.append(writer.submit(_put, store, row, image, within))
-        ended = [row.result() for row in rows]
-    return time.perf_counter() - began, ended
+def _do(place: int, store: Store, task: Task) -> StoredRun:
+    del place
+    with workshop(store.folder) as within:
+        return run_into(store, task, within=within)
 
 
 # --- in threads ---
@@ -243,13 +174,9 @@ def in_threads(tasks: Iterable[Task], store: Store, workers: int) -> Generator[S
 
     def do(task: Task) -> StoredRun:
         check(0.0)
-        folder = getattr(local, "folder", None)
-        if folder is None:
-            local.folder = folder = Path(tempfile.mkdtemp(dir=within))
-        return _put(store, *_row_and_image(store, task, check), folder)
+        return run_into(store, task, check, within)
 
     with workshop(store.folder) as within, ThreadPoolExecutor(workers) as pool:
-        local = threading.local()
         under_way: set[Future[StoredRun]] = set()
         try:
             while True:
@@ -262,11 +189,6 @@ def in_threads(tasks: Iterable[Task], store: Store, workers: int) -> Generator[S
                     yield one.result()
         finally:
             ended.set()
-
-
-def refused(error: Exception) -> StoredRun:
-    """The row of a point of which there can be no run."""
-    return StoredRun("", "failed", reason_of(error))
 
 
 # --- a few runs whose results stay in memory ---

@@ -1,10 +1,4 @@
-"""Processes that work side by side, and end with the one that started them.
-
-Each is a pool of `concurrent.futures` of its own with one process: if that ends, killed or by a crash, no other
-loses its work, and whose work it did is known. The pools of several processes of the standard library and of
-loky are broken as a whole then and do not name the job; that of pebble waits for ever for a job that
-leaves with exit code 0.
-"""
+"""Processes that work side by side, and end with the one that started them."""
 
 from __future__ import annotations
 
@@ -12,27 +6,28 @@ import ctypes
 import multiprocessing
 import os
 import signal
-import sys
 import threading
 from collections.abc import Callable, Iterable, Iterator, Mapping, MutableSequence, Sequence
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager, suppress
-from functools import partial
-from multiprocessing.util import Finalize
-from typing import Any, NamedTuple, TypeVar
+from itertools import chain
+from typing import Any, TypeVar
 
 from support_exudyn.formulations.interruption import kept_from_children
 
 T = TypeVar("T")
+Job = tuple[int, tuple[Any, ...]]  # its number, and its arguments
+Tell = Callable[[Mapping[int, float]], None]  # receives the shares done of the jobs under way, by number
 
 CONTEXT = multiprocessing.get_context("spawn")  # the engine does not survive a fork
 POLL = 0.1  # how often progress is reported [s]
+AHEAD = 2  # jobs for each process, one of them waiting
 NOT_BEGUN = -1.0  # in place of the share of a job that waits
 TRIM_THRESHOLD, MMAP_THRESHOLD = -1, -3  # of mallopt of glibc
 KEPT = 2**26  # bytes that a process keeps
 
-# in a worker: the shared array of shares done, and its place in it
+# in a worker: the shared array of shares done, and the place of the job at work
 _shares: Any = None
 _place = 0
 
@@ -63,17 +58,6 @@ class NoProcessError(RuntimeError):
         )
 
 
-class _Job(NamedTuple):
-    """A job under way: its number, its arguments, and which process does it."""
-
-    number: int
-    given: tuple[Any, ...]
-    place: int
-
-
-Tell = Callable[[Mapping[int, float]], None]  # receives the shares done of the jobs under way, by number
-
-
 class Workers:
     """Processes for several sweeps, for starting them takes seconds; each is started when it is needed.
 
@@ -83,13 +67,13 @@ class Workers:
     job.
 
     Arguments:
-        shares: where jobs report, a number for each process.
-        pool: makes a pool of one process.
+        shares: where jobs report, a number for each job that may be under way, and one for the start.
+        pool: makes the pool of processes, anew if one of them ends.
     """
 
     def __init__(self, shares: MutableSequence[float], pool: Callable[[], Executor]) -> None:
-        self._shares, self._pool = shares, pool
-        self._pools: list[Executor | None] = [None] * len(shares)
+        self._shares, self._new = shares, pool
+        self._pool: Executor | None = None
 
     def run(
         self,
@@ -100,118 +84,105 @@ class Workers:
     ) -> list[T]:
         """What `work` returns for every job, in their order; they are started in that order too.
 
-        A job whose process ends is done once more when all others are done, without any other at the same time.
-
         progress: receives the share done of every job ten times a second. ended: gives what to return for a job
-        whose process ended again; without it the first such error is raised when all others are done.
+        whose process ended, see `stream`; without it the first such error is raised when all others are done.
         """
         found: dict[int, T | ProcessEndedError] = {}
 
         def tell(shares: Mapping[int, float]) -> None:
             progress([1.0 if n in found else shares.get(n, 0.0) for n in range(len(jobs))])
 
-        def result(one: T | ProcessEndedError) -> T:
-            if not isinstance(one, ProcessEndedError):
-                return one
-            if ended is None:
-                raise one
-            return ended(one)
-
         found.update(self.stream(jobs, work, tell))
-        lost = [n for n in range(len(jobs)) if isinstance(found[n], ProcessEndedError)]
-        for n in lost:
-            del found[n]
-        found.update(self.stream([jobs[n] for n in lost], work, tell, lost, alone=True))
         if jobs:
             tell({})
-        return [result(found[n]) for n in range(len(jobs))]
+        results = []
+        for n in range(len(jobs)):
+            one = found[n]
+            if isinstance(one, ProcessEndedError):
+                if ended is None:
+                    raise one
+                one = ended(one)
+            results.append(one)
+        return results
 
     def stream(
-        self,
-        jobs: Iterable[tuple[Any, ...]],
-        work: Callable[..., T],
-        tell: Tell | None = None,
-        numbers: Iterable[int] | None = None,
-        *,
-        alone: bool = False,
+        self, jobs: Iterable[tuple[Any, ...]], work: Callable[..., T], tell: Tell | None = None
     ) -> Iterator[tuple[int, T | ProcessEndedError]]:
         """Number of a job and what `work` returns, as each ends; for any number of jobs.
 
-        Jobs are taken as there is room for them, and nothing is held of those that have ended. Of a job whose
-        process ends the error comes in place of what `work` returns.
+        Jobs are taken as there is room for them, and nothing is held of those that have ended. If a process
+        ends, the standard library ends all others. Each job that was under way is done once more at the end,
+        without any other; if its process ends again, the error comes in place of what `work` returns.
 
-        Arguments:
-            tell: receives the shares done of the jobs under way, by number, ten times a second.
-            numbers: of the jobs; from 0 on if None.
-            alone: whether jobs are done one after the other.
+        tell: receives the shares done of the jobs under way, by number, ten times a second.
         """
-        source = enumerate(jobs) if numbers is None else zip(numbers, jobs, strict=True)
-        free = list(range(1 if alone else len(self._pools)))[::-1]
-        held: dict[Future[T], _Job] = {}
+        lost: list[Job] = []
+        for job, result in self._stream(enumerate(jobs), work, tell, len(self._shares) - 1):
+            if isinstance(result, ProcessEndedError):
+                lost.append(job)
+            else:
+                yield job[0], result
+        for job, result in self._stream(lost, work, tell, 1):
+            yield job[0], result
+
+    def _stream(
+        self, jobs: Iterable[Job], work: Callable[..., T], tell: Tell | None, room: int
+    ) -> Iterator[tuple[Job, T | ProcessEndedError]]:
+        """Jobs and what `work` returns, with so many jobs under way at most."""
+        source, free = iter(jobs), list(range(room))
+        held: dict[Future[T], tuple[Job, int, Executor]] = {}
         try:
             while True:
-                while free and (item := next(source, None)):
-                    job = _Job(*item, free.pop())
-                    held[self._submit(job, work)] = job
+                while free and (job := next(source, None)) is not None:
+                    place = free.pop()
+                    held[self._submit(job, place, work)] = job, place, self._running()
                 if not held:
                     return
-                for future in self._ended(held, tell):
-                    job = held.pop(future)
-                    free.append(job.place)
-                    if isinstance(future.exception(), BrokenProcessPool):
-                        yield job.number, self._lost(job)
+                finished, _ = wait(held, None if tell is None else POLL, FIRST_COMPLETED)
+                if tell is not None:
+                    tell({job[0]: max(0.0, self._shares[place]) for job, place, _ in held.values()})
+                for future in finished:
+                    job, place, pool = held.pop(future)
+                    free.append(place)
+                    if not isinstance(future.exception(), BrokenProcessPool):
+                        yield job, future.result()
+                        continue
+                    self._renew(pool)
+                    if self._shares[place] == NOT_BEGUN:
+                        source = chain([job], source)
                     else:
-                        yield job.number, future.result()
+                        yield job, ProcessEndedError(job[0], self._shares[place])
         finally:
             for future in held:
                 future.cancel()
 
-    def _submit(self, job: _Job, work: Callable[..., T]) -> Future[T]:
-        self._shares[job.place] = NOT_BEGUN
-        doing = partial(_do, job.place, work, job.number, job.given)
+    def _submit(self, job: Job, place: int, work: Callable[..., T]) -> Future[T]:
+        self._shares[place] = NOT_BEGUN
         with kept_from_children():  # a process is started here
             try:
-                return self._of(job.place).submit(doing)
-            except (BrokenProcessPool, OSError):  # it ended while it had no work
-                return self._renewed(job.place).submit(doing)
+                return self._running().submit(_do, place, work, *job)
+            except (BrokenProcessPool, OSError):  # a process ended without work
+                self._renew(self._running())
+                return self._running().submit(_do, place, work, *job)
 
-    def _of(self, place: int) -> Executor:
-        found = self._pools[place]
-        if found is None:
-            found = self._pools[place] = self._pool()
-        return found
+    def _running(self) -> Executor:
+        if self._pool is None:
+            self._shares[-1] = NOT_BEGUN
+            self._pool = self._new()
+        return self._pool
 
-    def _renewed(self, place: int) -> Executor:
-        """Another process in place of one that has ended."""
-        self._of(place).shutdown(wait=False, cancel_futures=True)
-        self._pools[place] = None
-        return self._of(place)
-
-    def _ended(self, held: Mapping[Future[T], _Job], tell: Tell | None) -> set[Future[T]]:
-        """Wait until any of the jobs has ended, and report meanwhile how far they are."""
-        while True:
-            finished, _ = wait(held, None if tell is None else POLL, FIRST_COMPLETED)
-            if tell is not None:
-                tell({job.number: max(0.0, self._shares[job.place]) for job in held.values()})
-            if finished:
-                return finished
-
-    def _lost(self, job: _Job) -> ProcessEndedError:
-        """The error of a job whose process has ended; raises NoProcessError if none can be started."""
-        share = self._shares[job.place]
-        pool = self._renewed(job.place)
-        if share == NOT_BEGUN:
-            try:
-                with kept_from_children():
-                    pool.submit(int).result()
-            except (BrokenProcessPool, OSError):
-                raise NoProcessError from None
-        return ProcessEndedError(job.number, max(0.0, share))
+    def _renew(self, ended: Executor) -> None:
+        """Take another pool in place of one that has ended. Raises NoProcessError if it never began."""
+        if self._pool is ended:
+            self.close()
+            if self._shares[-1] == NOT_BEGUN:
+                raise NoProcessError
 
     def close(self) -> None:
         """Drop what waits, and wait for the processes to end."""
-        for pool in filter(None, self._pools):
-            pool.shutdown(cancel_futures=True)
+        if self._pool is not None:
+            self._pool.shutdown(cancel_futures=True)
+            self._pool = None
 
 
 @contextmanager
@@ -223,9 +194,9 @@ def worker_pool(workers: int | Workers) -> Iterator[Workers]:
     if isinstance(workers, Workers):
         yield workers
         return
-    strangers = set(multiprocessing.active_children())
-    shares = CONTEXT.Array("d", max(1, workers), lock=False)
-    pool = Workers(shares, lambda: ProcessPoolExecutor(1, CONTEXT, _start, (shares,)))
+    number, strangers = max(1, workers), set(multiprocessing.active_children())
+    shares = CONTEXT.Array("d", AHEAD * number + 1, lock=False)
+    pool = Workers(shares, lambda: ProcessPoolExecutor(number, CONTEXT, _start, (shares,)))
     try:
         yield pool
     except BaseException:
@@ -248,9 +219,9 @@ def report(share: float) -> None:
 def _start(shares: Any) -> None:
     global _shares
     _shares = shares
+    _shares[-1] = 0.0
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     keep_memory()
-    Finalize(None, _leave, exitpriority=-1000)  # after all others
     threading.Thread(target=_end_with_parent, daemon=True).start()
 
 
@@ -271,18 +242,6 @@ def keep_memory() -> None:
         library = ctypes.CDLL(None)
         for option in (TRIM_THRESHOLD, MMAP_THRESHOLD):
             library.mallopt(option, KEPT)
-
-
-def _leave() -> None:
-    """End at once, as a forked process does: to take all apart that was imported takes some tenths of a second.
-
-    One that ends by an exception goes on to tell it.
-    """
-    if sys.exc_info()[0] is None:
-        for stream in (sys.stdout, sys.stderr):
-            if stream is not None:
-                stream.flush()
-        os._exit(0)
 
 
 def _end_with_parent() -> None:

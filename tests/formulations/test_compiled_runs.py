@@ -229,7 +229,7 @@ def _bytes() -> bytes:
 
 
 def test_runs_are_the_same_bit_for_bit_also_in_another_process() -> None:
-    warm_up(with_legs=False)
+    warm_up()
     here = _bytes()
     assert _bytes() == here
     with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as pool:

@@ -44,7 +44,7 @@ def ran(monkeypatch: pytest.MonkeyPatch) -> list[float]:
 
     monkeypatch.setattr(hypercube, "measures", cheap)
     monkeypatch.setattr(hypercube, "worker_pool", here)
-    monkeypatch.setattr(hypercube, "warm_up", lambda **_: None)
+    monkeypatch.setattr(hypercube, "warm_up", lambda: None)
     return done
 
 

@@ -152,7 +152,7 @@ def test_other_numbers_are_noted_of_runs_that_are_kept(tmp_path: Path, ran: list
     runs = {path: path.stat().st_mtime_ns for path in (tmp_path / "store" / "runs").iterdir()}
     path = write_sweep(tmp_path, speeds(2), record='numbers = ["journal.x.max"]')
     do(path)
-    assert [task.again for task in ran] == [False, False, True, True]
+    assert len(ran) == 2
     assert {path: path.stat().st_mtime_ns for path in (tmp_path / "store" / "runs").iterdir()} == runs
     noted = columns(tmp_path / "store")
     assert "pin.pin.force.largest_N" not in noted

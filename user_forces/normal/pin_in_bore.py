@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from functools import cached_property, lru_cache
+from functools import cache, cached_property, lru_cache
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
@@ -23,7 +23,8 @@ SHALLOWEST = 1e-6  # depth over clearance below which the force is linear in the
 LOWEST = math.log(SHALLOWEST)
 WIDEST = math.radians(60.0)  # half angle up to which the law is valid
 NARROWEST = 1e-9  # half angle [rad] below all that a force makes
-HALVINGS = 60
+TABLE, BESIDE = 200, 1e-4  # half angles at which the law is known; what a second guess is beside the first
+SECANTS = 6
 FORCES = ("force", "elastic", "energy")
 
 Array = npt.NDArray[np.float64]
@@ -98,7 +99,11 @@ class PinInBore(CylinderLaw):
     @cached_property
     def energy_formula(self) -> Formula:
         """Integral of the force [J], see `pin_energy`."""
-        return Formula(pin_energy, (*self._scales, *self._inverse.force, *self._inverse.energy))
+        stiffness, clearance, middle, half = self._scales
+        shallow = SHALLOWEST * clearance
+        linear = 0.5 * polynomial(-1.0, 0, self._inverse.force)
+        rest = shallow * shallow * (linear - polynomial(-1.0, 0, self._inverse.energy))
+        return Formula(pin_energy, (stiffness, shallow, middle, half, linear, rest, *self._inverse.energy))
 
     @property
     def _scales(self) -> tuple[float, float, float, float]:
@@ -127,16 +132,27 @@ def pin_force(
 
 @kernel
 def pin_energy(
-    depth: float, stiffness: float, clearance: float, middle: float, half: float, *coefficients: float
+    depth: float,
+    stiffness: float,
+    shallow: float,
+    middle: float,
+    half: float,
+    linear: float,
+    rest: float,
+    *coefficients: float,
 ) -> float:
-    """Integral of `pin_force` [J]; coefficients of the force, then those of the energy."""
-    shallow = SHALLOWEST * clearance
-    linear = 0.5 * polynomial(-1.0, 0, coefficients)
+    """Integral of `pin_force` [J].
+
+    Arguments:
+        shallow: depth [m] below which the force is linear in the depth.
+        linear: energy over stiffness and squared depth there.
+        rest: energy over stiffness [m^2] by which the polynomial misses that at this depth.
+        coefficients: of the energy.
+    """
     if depth < shallow:
         return stiffness * depth * depth * linear
     x = max((math.log(depth) - middle) / half, -1.0)
-    rest = shallow * shallow * (linear - polynomial(-1.0, DEGREE + 1, coefficients))
-    return stiffness * (depth * depth * polynomial(x, DEGREE + 1, coefficients) + rest)
+    return stiffness * (depth * depth * polynomial(x, 0, coefficients) + rest)
 
 
 @kernel
@@ -160,6 +176,14 @@ class _Inverse(NamedTuple):
     energy: tuple[float, ...]
 
 
+@cache
+def _table() -> tuple[Array, Array, Array]:
+    """Logarithms of half angles, and loads and depths there, see `relative_load` and `relative_depth`."""
+    logarithms = np.linspace(math.log(NARROWEST), math.log(WIDEST), TABLE)
+    angles = np.exp(logarithms)
+    return logarithms, relative_load(angles), relative_depth(angles)
+
+
 @lru_cache(maxsize=256)
 def _inverse(backing: float) -> _Inverse:
     """The inverted law; backing: 2 E* L / k, the part of the depth that pin and link add."""
@@ -171,12 +195,17 @@ def _inverse(backing: float) -> _Inverse:
     half = 0.5 * (highest - LOWEST)
     nodes = chebyshev.chebpts1(DEGREE + 1)
     wanted = LOWEST + half * (nodes + 1.0)
-    low, high = np.full(nodes.size, math.log(NARROWEST)), np.full(nodes.size, math.log(WIDEST))
-    for _ in range(HALVINGS):
-        middle = 0.5 * (low + high)
-        below = logarithm(np.exp(middle)) < wanted
-        low, high = np.where(below, middle, low), np.where(below, high, middle)
-    ratios = 1.0 / (relative_depth(np.exp(0.5 * (low + high))) + backing)
+    known, loads, depths = _table()
+    logarithms = np.log(loads * (depths + backing))
+    # the secant method, in logarithms: next to a straight line, so that its errors vanish after some rounds
+    before, now = np.interp(wanted, logarithms, known), np.interp(wanted + BESIDE, logarithms, known)
+    missed = logarithm(np.exp(before)) - wanted
+    for _ in range(SECANTS):
+        misses = logarithm(np.exp(now)) - wanted
+        apart = misses - missed
+        step = np.where(apart == 0.0, 0.0, misses * (now - before) / np.where(apart == 0.0, 1.0, apart))
+        before, now, missed = now, now - step, misses
+    ratios = 1.0 / (relative_depth(np.exp(now)) + backing)
     force = chebyshev.cheb2poly(chebyshev.chebfit(nodes, ratios, DEGREE))
     energy = np.zeros(DEGREE + 1)
     carried = 0.0
