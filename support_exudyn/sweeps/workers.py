@@ -11,7 +11,6 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, MutableSequen
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager, suppress
-from itertools import chain
 from typing import Any, TypeVar
 
 from support_exudyn.formulations.interruption import kept_from_children
@@ -148,10 +147,7 @@ class Workers:
                         yield job, future.result()
                         continue
                     self._renew(pool)
-                    if self._shares[place] == NOT_BEGUN:
-                        source = chain([job], source)
-                    else:
-                        yield job, ProcessEndedError(job[0], self._shares[place])
+                    yield job, ProcessEndedError(job[0], max(0.0, self._shares[place]))
         finally:
             for future in held:
                 future.cancel()
