@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import csv
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from decimal import Decimal
 from fnmatch import fnmatchcase
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -31,42 +32,18 @@ FARTHEST = 1e-12  # share of all numbers beyond which none is drawn, so that all
 
 
 @dataclass(frozen=True)
-class NormalNumbers:
-    """Numbers of a normal distribution; of those between two bounds alone, if there are any."""
+class Quantiles:
+    """Numbers of which some are more likely than others; quantile: gives that which a share of all is below."""
 
-    mean: float
-    std: float
-    low: float = -math.inf
-    high: float = math.inf
+    quantile: Callable[[float], float]
 
     def at(self, share: float) -> Decimal:
         """The number that a share of all is below, 0 to 1, in twelve digits."""
-        from scipy.stats import truncnorm  # takes a second, and a grid has no use for it
-
-        ends = (self.low - self.mean) / self.std, (self.high - self.mean) / self.std
-        inside = min(max(share, FARTHEST), 1.0 - FARTHEST)
-        return _decimal(float(truncnorm.ppf(inside, *ends, loc=self.mean, scale=self.std)))
+        number = float(self.quantile(min(max(share, FARTHEST), 1.0 - FARTHEST)))
+        return DIGITS.create_decimal_from_float(number).normalize()
 
 
-@dataclass(frozen=True)
-class MeasuredNumbers:
-    """Numbers that were measured, in order: all are equally likely, and so is all between two neighbours."""
-
-    values: tuple[float, ...]
-
-    def at(self, share: float) -> Decimal:
-        """The number that a share of all is below, 0 to 1, in twelve digits."""
-        return _decimal(float(np.quantile(self.values, share)))
-
-
-def _decimal(number: float) -> Decimal:
-    return DIGITS.create_decimal_from_float(number).normalize()
-
-
-Distribution = Range | NormalNumbers | MeasuredNumbers
-
-
-def distribution_of(item: Mapping[str, Any], where: str, folder: Path) -> Distribution:
+def distribution_of(item: Mapping[str, Any], where: str, folder: Path) -> Range | Quantiles:
     """The distribution that a table of a sweep's file describes.
 
     where: what errors call it. folder: from which its file lies.
@@ -93,7 +70,10 @@ def distribution_of(item: Mapping[str, Any], where: str, folder: Path) -> Distri
     if kind == "normal":
         if not given["std"] > 0.0:
             raise InputError(f"{where}.std = {given['std']:g}: allowed: > 0")
-        return NormalNumbers(given["mean"], given["std"], low, high)
+        from scipy.stats import truncnorm  # takes a second, and a grid has no use for it
+
+        mean, std = given["mean"], given["std"]
+        return Quantiles(truncnorm((low - mean) / std, (high - mean) / std, loc=mean, scale=std).ppf)
     if kind == "log_uniform" and not low > 0.0:
         raise InputError(f"{where}.from = {low:g}: allowed with distribution = 'log_uniform': > 0")
     return Range(Decimal(item["from"]), Decimal(item["to"]), scale="log" if kind == "log_uniform" else "linear")
@@ -105,8 +85,11 @@ def _number(item: Any, where: str) -> float:
     return float(item)
 
 
-def _measured(item: Mapping[str, Any], where: str, folder: Path) -> MeasuredNumbers:
-    """Numbers of a column of a CSV file, whose first line names the columns."""
+def _measured(item: Mapping[str, Any], where: str, folder: Path) -> Quantiles:
+    """Numbers of a column of a CSV file, whose first line names the columns.
+
+    All are equally likely, and so is all between two neighbours.
+    """
     file, column = item["file"], item.get("column")
     if not isinstance(file, str) or not file:
         raise InputError(f"{where}.file = {short(file)}: allowed: the name of a CSV file")
@@ -124,7 +107,7 @@ def _measured(item: Mapping[str, Any], where: str, folder: Path) -> MeasuredNumb
         raise InputError(f"{path}: column {column!r}: allowed: a number in every line") from None
     if len(values) < 2 or not all(map(math.isfinite, values)):
         raise InputError(f"{path}: column {column!r}: {len(values)} numbers; allowed: two or more, all finite")
-    return MeasuredNumbers(tuple(values))
+    return Quantiles(partial(np.quantile, values))
 
 
 # --- ranges that files state for their numbers, from which a sweep draws ---

@@ -72,20 +72,10 @@ def test_what_cannot_be_drawn_is_told(vary: str, head: str | None, said: str, tm
         read_sweep(path)
 
 
-# --- numbers that no run depends on ---
-
-
-def on_reference(folder: Path, vary: str, method: str = 'method = "latin_hypercube"\nsamples = 3') -> Path:
-    (folder / "a.toml").write_text('machine = "reference"\nduration_s = 0.5\n', encoding="utf-8")
-    path = folder / "sweep.toml"
-    path.write_text(f'scenario = "a.toml"\n{method}\n[vary]\n{vary}\n', encoding="utf-8")
-    return path
-
-
 # --- numbers of a scenario's file ---
 
 LEG = """
-[actuators.leg]
+[actuators.front_column]
 type = "HydraulicCylinder"
 bore_area_mm2 = 98175
 rod_side_area_mm2 = 15080
@@ -111,9 +101,10 @@ OF_SCENARIO = {
 }
 
 
-def with_leg(folder: Path, vary: str, head: str = 'machine = "reference"\nduration_s = 0.5') -> Path:
-    path = on_reference(folder, vary)
-    (folder / "a.toml").write_text(head + LEG.replace("leg", "front_column"), encoding="utf-8")
+def with_leg(folder: Path, vary: str) -> Path:
+    head = 'machine = "reference"\nduration_s = 0.5'
+    path = write(folder, vary, 'method = "latin_hypercube"\nsamples = 3')
+    (folder / "a.toml").write_text(head + LEG, encoding="utf-8")
     return path
 
 

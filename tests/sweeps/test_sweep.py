@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 from support_exudyn import Result, Scenario
-from support_exudyn.__main__ import main
 from support_exudyn.scene.contract import Failure, Progress, SimulationError
 from support_exudyn.sweeps import SweepOutcome, open_run, read_sweep, read_table, sweep, work
 from support_exudyn.sweeps.run import known
@@ -208,21 +207,3 @@ def test_refused_and_failed_runs_are_rows_with_their_reason(
     monkeypatch.setattr(work, "simulate", real)
     assert do(path, retry_failed=True).done == 2
     assert len(ran) == 3
-
-
-# --- the command ---
-
-
-def test_a_chart_is_drawn_of_it(tmp_path: Path, ran: list[Task], capsys: pytest.CaptureFixture[str]) -> None:
-    path = write_sweep(
-        tmp_path, '"pins.pin.clearance_mm" = [0.5, 1.0]\n"machine.speed_m_per_s" = [0.1, 0.2, -0.1]'
-    )
-    do(path)
-    store = str(tmp_path / "store")
-    by = ["--by", "pins.pin.clearance_mm", "--out", str(tmp_path)]
-    assert main(["chart", store, "machine.speed_m_per_s", "pin.pin.force.largest", *by]) == 0
-    files = [Path(line) for line in capsys.readouterr().out.splitlines()]
-    assert [file.suffix for file in files] == [".png", ".pdf"]
-    assert all(file.stat().st_size > 1000 for file in files)
-    assert main(["chart", store, "machine.speed_m_per_s", "pin.pin.force.median"]) == 1
-    assert "no such number; allowed: pin.pin.force." in capsys.readouterr().err

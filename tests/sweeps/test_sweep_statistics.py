@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
+from decimal import Decimal
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from support_exudyn.sweeps.distributions import NormalNumbers, distribution_of
+from support_exudyn.sweeps.distributions import distribution_of
 from support_exudyn.sweeps.statistics import percentiles, ranking
 from user_forces.values.value import InputError
 
 HERE = Path()
+NORMAL = {"distribution": "normal", "mean": Decimal("0.9")}
 
 
 def test_a_normal_distribution_has_its_quantiles() -> None:
-    normal = NormalNumbers(0.9, 0.02)
+    normal = distribution_of({**NORMAL, "std": Decimal("0.02")}, "vary.e", HERE)
     # of the standard normal distribution, from tables
     for share, deviation in ((0.5, 0.0), (0.8413447460685429, 1.0), (0.025, -1.959963984540054)):
         assert float(normal.at(share)) == pytest.approx(0.9 + 0.02 * deviation, abs=1e-11)
@@ -24,7 +26,7 @@ def test_a_normal_distribution_has_its_quantiles() -> None:
 
 
 def test_a_truncated_one_stays_between_its_bounds_with_the_same_shape() -> None:
-    truncated = NormalNumbers(0.9, 0.05, high=0.9)
+    truncated = distribution_of({**NORMAL, "std": Decimal("0.05"), "to": Decimal("0.9")}, "vary.e", HERE)
     drawn = [float(truncated.at(share)) for share in np.linspace(0.0, 1.0, 101)]
     assert max(drawn) <= 0.9
     # half of the half is below the first quartile of the whole

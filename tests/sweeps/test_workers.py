@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import faulthandler
 import multiprocessing
 import os
 import signal
@@ -14,7 +15,8 @@ from pathlib import Path
 
 import pytest
 
-from support_exudyn.sweeps.workers import Workers, report, worker_pool
+from support_exudyn.sweeps.workers import ProcessEndedError, Workers, report, worker_pool
+from tests.hostile import posix_only
 from tests.processes import ROOT, alive, environment, linux_only, wait_until
 
 SOON = 10.0  # [s]; what ends at once has ended by then, on a busy machine too
@@ -44,6 +46,24 @@ def refuse(place: int, wrong: int, folder: Path) -> int:
     if place == wrong:
         raise LookupError(f"no {place}")
     return place
+
+
+def end(place: int, way: str, folder: Path) -> int:
+    """Mark that the job was begun, and end as asked."""
+    with (folder / str(place)).open("a") as marks:
+        marks.write("x")
+    if way == "killed":
+        os.kill(os.getpid(), signal.SIGKILL)
+    elif way == "crashed":
+        faulthandler.disable()  # what it writes is not looked at
+        os.abort()
+    elif way == "left":
+        os._exit(3)
+    return place
+
+
+def times_begun(folder: Path) -> dict[int, int]:
+    return {int(path.name): path.stat().st_size for path in folder.iterdir()}
 
 
 def show_processes(shares: list[float]) -> None:
@@ -106,6 +126,25 @@ def test_an_exception_of_a_job_is_raised_here_and_the_rest_is_dropped(pool: Work
 
 
 # --- ends ---
+
+
+@posix_only
+def test_the_job_whose_process_ends_is_told_and_all_others_are_done(pool: Workers, tmp_path: Path) -> None:
+    ways = ["good", "killed", *["good"] * 4, "crashed", "left", "good"]
+    told: list[ProcessEndedError] = []
+    shares: list[list[float]] = []
+
+    def ended(error: ProcessEndedError) -> int:
+        told.append(error)
+        return -error.place
+
+    found = pool.run([(way, tmp_path) for way in ways], end, shares.append, ended)
+    assert found == [0, -1, 2, 3, 4, 5, -6, -7, 8]
+    assert [error.place for error in told] == [1, 6, 7]
+    assert shares[-1] == [1.0] * 9
+    begun = times_begun(tmp_path)
+    assert {n for n in range(9) if begun[n] >= 2} >= {1, 6, 7}
+    assert max(begun.values()) == 2  # also of those that were under way beside them
 
 
 @pytest.mark.slow  # three processes
