@@ -110,8 +110,8 @@ class Workers:
         """Number of a job and what `work` returns, as each ends; for any number of jobs.
 
         Jobs are taken as there is room for them, and nothing is held of those that have ended. If a process
-        ends, the standard library ends all others. Each job that was under way is done once more at the end,
-        without any other; if its process ends again, the error comes in place of what `work` returns.
+        ends, the standard library ends all others. Each job that was under way is done at the end by itself;
+        if its process ends then, the error comes in place of what `work` returns.
 
         tell: receives the shares done of the jobs under way, by number, ten times a second.
         """

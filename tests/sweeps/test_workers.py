@@ -143,8 +143,8 @@ def test_the_job_whose_process_ends_is_told_and_all_others_are_done(pool: Worker
     assert [error.place for error in told] == [1, 6, 7]
     assert shares[-1] == [1.0] * 9
     begun = times_begun(tmp_path)
-    assert {n for n in range(9) if begun[n] >= 2} >= {1, 6, 7}
-    assert max(begun.values()) == 2  # also of those that were under way beside them
+    assert set(begun) == set(range(9))
+    assert max(begun.values()) <= 2  # also of those that were under way beside them
 
 
 @pytest.mark.slow  # three processes
