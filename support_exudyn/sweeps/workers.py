@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, MutableSequen
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager, suppress
+from functools import partial
 from typing import Any, TypeVar
 
 from support_exudyn.formulations.interruption import kept_from_children
@@ -154,12 +155,14 @@ class Workers:
 
     def _submit(self, job: Job, place: int, work: Callable[..., T]) -> Future[T]:
         self._shares[place] = NOT_BEGUN
+        number, given = job
+        doing = partial(_do, place, work, number, given)
         with kept_from_children():  # a process is started here
             try:
-                return self._running().submit(_do, place, work, *job)
+                return self._running().submit(doing)
             except (BrokenProcessPool, OSError):  # a process ended without work
                 self._renew(self._running())
-                return self._running().submit(_do, place, work, *job)
+                return self._running().submit(doing)
 
     def _running(self) -> Executor:
         if self._pool is None:
