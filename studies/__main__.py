@@ -1,22 +1,24 @@
 """`python -m studies`: the studies of the paper on Exudyn; other studies by name; and the report on them."""
 
+import os
 import sys
 import time
 import traceback
 from collections.abc import Sequence
 from contextlib import nullcontext
-from dataclasses import replace
 from pathlib import Path
+from typing import Annotated
 
 from studies.adams import run as adams
 from studies.benchmarking import trade
 from studies.catalogue import DEFAULT, STUDIES
-from studies.common.options import Options, OptionWords
+from studies.common.options import KEPT, Options
 from studies.common.study import Study, output_folder, say_short, work_in_folder
+from studies.common.subject import chosen_subject
 from studies.common.witness import compiling
 from studies.report import rebuild
 from studies.reporting.arranged import PAGE
-from support_exudyn.commands.command_line import carry_out, new_app, say, warn
+from support_exudyn.commands.command_line import Imports, at_most, carry_out, import_modules, new_app, say, warn
 from support_exudyn.simulation.at_start import EXIT_CODE
 from support_exudyn.sweeps.workers import Workers, worker_pool
 from user_forces.values.value import InputError, short
@@ -37,7 +39,13 @@ def run_studies(
     *names: str,
     all: bool = False,  # noqa: A002, the option's name
     list: bool = False,  # noqa: A002, the option's name
-    words: OptionWords | None = None,
+    out: Path = Path("results"),
+    workers: Annotated[int, at_most(1024)] = os.cpu_count() or 1,
+    machines: Annotated[int | None, at_most(100_000)] = None,
+    runs: Annotated[int | None, at_most(1_000_000)] = None,
+    machine: Path | None = None,
+    pin: str | None = None,
+    imports: Imports = (),
 ) -> int:
     """Run studies and write the report after each.
 
@@ -45,16 +53,26 @@ def run_studies(
         names: Studies to run (the paper's answer).
         all: Run all studies.
         list: Print all studies, their questions and times.
+        out: Folder for output (results).
+        workers: Processes (all cores).
+        machines: Machines that claims draws (80; with --all more).
+        runs: Scenes that extremes draws; blow: its small form.
+        machine: Your machine or scenario in place of the paper's: a TOML file, or a shipped machine's name.
+        pin: The pin of your machine that gets clearance (rear_base).
 
     Returns the exit code: 0, or 1 if any study failed or the report could not be written.
     """
     if list:
         _list()
         return 0
-    words = words or OptionWords()
-    chosen = _chosen(names, all, words.machine is not None)
-    options = replace(words.options(), thorough=all)
-    with output_folder(options.out), worker_pool(options.workers) as pool:
+    chosen = _chosen(names, all, machine is not None)
+    import_modules(imports)
+    subject = chosen_subject(machine, pin)
+    if subject.is_slow:
+        only = "only the Exudyn formulation covers it: minutes, where --list prints seconds"
+        warn(f"--machine {machine}: {only}")
+    options = Options(out, workers, out / KEPT, machines, runs, subject, thorough=all)
+    with output_folder(out), worker_pool(workers) as pool:
         return _run(chosen, options, pool)
 
 
@@ -64,7 +82,7 @@ def _list() -> None:
         paper = "the paper's answer" if name in DEFAULT else ""
         machine = "takes --machine" if study.own_machine else ""
         about = ", ".join(filter(None, (paper, machine)))
-        say(f"{name:20} {_seconds(study.seconds):>8}  {study.question}" + (f" ({about})" if about else ""))
+        say(f"{name:20} {_seconds(study.seconds):>8}  {study.question()}" + (f" ({about})" if about else ""))
     others = {
         BENCHMARK: (trade.BENCHMARK_SECONDS, (trade.benchmark.__doc__ or "").partition("?")[0] + "?"),
         ADAMS: (0.0, "How is the paper's model written for ADAMS?"),
@@ -115,11 +133,11 @@ def _run(names: Sequence[str], options: Options, pool: Workers) -> int:
     return 1 if failed else 0
 
 
-def _code_of(study: Study, options: Options) -> int:
+def _code_of(study: type[Study], options: Options) -> int:
     """Run a study and print its answer. Returns the exit code; an interruption ends all studies."""
 
     def work(out: Path) -> None:
-        say_short(study(options), out)
+        say_short(study(options).write(), out)
 
     try:
         code = work_in_folder(work, options.out)

@@ -16,10 +16,11 @@ from studies.slider_crank import run as slider_crank
 from studies.stability import run as stability
 from studies.which_pin import run as which_pin
 
-_IN_ORDER = (
-    clearance.influence, clearance.size, drive_mode.study, valve_modes.study, claims.study, which_pin.study,
-    scene_detail.study, contact_laws.study, slider_crank.study, outside.study, stability.study, blow.study,
-    slack_stiffness.study, trade.study, extremes.study,
+_IN_ORDER: tuple[type[Study], ...] = (
+    clearance.ClearanceInfluence, clearance.ClearanceSize, drive_mode.DriveMode, valve_modes.ValveModes,
+    claims.Claims, which_pin.WhichPin, scene_detail.SceneDetailStudy, contact_laws.ContactLaws,
+    slider_crank.SliderCrank, outside.Outside, stability.Stability, blow.BlowStudy,
+    slack_stiffness.SlackStiffness, trade.SpeedAccuracy, extremes.Extremes,
 )  # fmt: skip
-STUDIES: dict[str, Study] = {study.name: study for study in _IN_ORDER}
+STUDIES = {study.name: study for study in _IN_ORDER}
 DEFAULT = ("clearance_influence", "clearance_size", "drive_mode", "claims")  # the answer to the paper

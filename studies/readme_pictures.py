@@ -17,7 +17,7 @@ from PIL import Image
 from studies.clearance import figures as influence_figures
 from studies.clearance import run as clearance
 from studies.common import paper_machine
-from studies.common.options import MOST_WORKERS, Options
+from studies.common.options import Options
 from studies.common.runs import run_cases
 from studies.common.study import output_folder
 from studies.extremes import figures as extremes_figures
@@ -92,7 +92,7 @@ app = new_app("python -m studies.readme_pictures", (__doc__ or "").splitlines()[
 def draw(
     *names: Annotated[str, among(PICTURES, f"Which (all): {', '.join(PICTURES)}.")],
     out: Path = FOLDER,
-    workers: Annotated[int, at_most(MOST_WORKERS)] = os.cpu_count() or 1,
+    workers: Annotated[int, at_most(1024)] = os.cpu_count() or 1,
 ) -> None:
     """Make the pictures that were asked for.
 

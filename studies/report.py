@@ -32,7 +32,7 @@ def rebuild(out: Path) -> int:
         own = any(section.chapter.machine for section in sections)
         missing = {n: one for n, one in STUDIES.items() if n not in there and (one.own_machine or not own)}
         waited = [name for name in missing if name in DEFAULT]
-        others = {name: one.question for name, one in missing.items() if name not in DEFAULT}
+        others = {name: one.question() for name, one in missing.items() if name not in DEFAULT}
         with ExitStack() as files:
             for name, written in pages(out, sections, waited, others).items():
                 files.enter_context(whole_file(out / name)).write_text(written, encoding="utf-8")

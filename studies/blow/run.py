@@ -28,12 +28,11 @@ from studies.blow.blows import (
     middle,
     yield_valve,
 )
-from studies.common.numbers import Found, Number, by_case, cell, measured
-from studies.common.options import Options
+from studies.common.numbers import Found, Number, cell, measured
 from studies.common.panels import finish, grid
 from studies.common.rise import DEGREES, MeasuredRun, Series, between
 from studies.common.runs import run_cases
-from studies.common.study import Study, StudyOutcome
+from studies.common.study import Study
 from studies.common.support_legs import PAIRS
 from studies.common.words import text_table
 from support_exudyn import Result
@@ -231,43 +230,57 @@ def clearance_figure(found: Found, valved: Sequence[Blow]) -> Figure:
 # --- the study ---
 
 
-def work(chosen: Options) -> StudyOutcome:
-    """All blows, their numbers, figures and tables; with a number of runs the small form."""
-    blows = cases(small=chosen.runs is not None)
-    runs = run_cases({one.name: one.scenario() for one in blows}, chosen)
-    machines = list(dict.fromkeys(one.machine for one in blows))
-    reported = numbers(blows, runs)
-    found = by_case(reported)
-    valved = [one for one in blows if one.valve]
-    hard = max({(one.mass, one.height) for one in blows}, key=lambda one: one[0] * one[1])
-    shown = Blow(machines[0], "tip", *hard, "all", valve=True)
-    opened = [one for one in valved if found["flow", one.name].value > 0.0]
-    on_tail = [runs[one.name] for one in blows if one.place == "tail beam"]
-    tail = Counter(max(ALL_PINS, key=lambda pin: most(run, "pin.{}.force", (pin,))) for run in on_tail)
-    words = {
-        "plan": plan,
-        "run": sys.modules[__name__],
-        "found": found,
-        "blows": blows,
-        "valved": valved,
-        "bare": [one for one in blows if not one.valve],
-        "opened": opened,
-        "first": machines[0],
-        "loose": {pins: [one for one in blows if one.pins == pins] for pins in ("one", "all")},
-        "largest": max(valved, key=lambda one: found["flow", one.name].value).name,
-        "tail": tail.most_common(),
-        "shown": shown,
-    }
-    sheets = {"middle_blow": key_table(found, machines[0]), "clearance": clearance_table(found, valved)}
-    if len(machines) > 1:
-        sheets["middle_blow_zf18000"] = key_table(found, machines[1])
-    drawings = {
-        "peaks": peak_figure(found, machines),
-        "courses": course_figure(runs, shown),
-        "clearance_ratio": clearance_figure(found, valved),
-    }
-    kept = {name: runs[name] for name in (shown.name, replace(shown, pins="ideal").name)}
-    return StudyOutcome(reported, words, drawings, sheets, kept)
+class BlowStudy(Study):
+    """What does a block do that falls on a set support, and what does clearance do to it?"""
 
+    name, seconds = "blow", 340.0
 
-study = Study("blow", __doc__, work, seconds=340.0)
+    def work(self) -> None:
+        """All blows; with a number of runs the small form."""
+        self.blows = blows = cases(small=self.chosen.runs is not None)
+        self.runs = run_cases({one.name: one.scenario() for one in blows}, self.chosen)
+        self.machines = list(dict.fromkeys(one.machine for one in blows))
+        self.numbers = numbers(blows, self.runs)
+        self.valved = [one for one in blows if one.valve]
+        hard = max({(one.mass, one.height) for one in blows}, key=lambda one: one[0] * one[1])
+        self.shown = Blow(self.machines[0], "tip", *hard, "all", valve=True)
+
+    def saved(self) -> dict[str, Result]:
+        """The blow that is drawn, with clearance and with ideal pins."""
+        return {name: self.runs[name] for name in (self.shown.name, replace(self.shown, pins="ideal").name)}
+
+    def figures(self) -> dict[str, Figure]:
+        """All figures."""
+        return {
+            "peaks": peak_figure(self.found, self.machines),
+            "courses": course_figure(self.runs, self.shown),
+            "clearance_ratio": clearance_figure(self.found, self.valved),
+        }
+
+    def tables(self) -> dict[str, Sheet]:
+        """All tables."""
+        names = dict(zip(("middle_blow", "middle_blow_zf18000"), self.machines, strict=False))
+        of_machines = {name: key_table(self.found, machine) for name, machine in names.items()}
+        return {
+            "middle_blow": of_machines["middle_blow"],
+            "clearance": clearance_table(self.found, self.valved),
+        } | (of_machines)
+
+    def words(self) -> dict[str, object]:
+        """Blows of several kinds."""
+        found, blows = self.found, self.blows
+        on_tail = [self.runs[one.name] for one in blows if one.place == "tail beam"]
+        tail = Counter(max(ALL_PINS, key=lambda pin: most(run, "pin.{}.force", (pin,))) for run in on_tail)
+        return {
+            "plan": plan,
+            "run": sys.modules[__name__],
+            "blows": blows,
+            "valved": self.valved,
+            "bare": [one for one in blows if not one.valve],
+            "opened": [one for one in self.valved if found["flow", one.name].value > 0.0],
+            "first": self.machines[0],
+            "loose": {pins: [one for one in blows if one.pins == pins] for pins in ("one", "all")},
+            "largest": max(self.valved, key=lambda one: found["flow", one.name].value).name,
+            "tail": tail.most_common(),
+            "shown": self.shown,
+        }

@@ -11,6 +11,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
+from matplotlib.figure import Figure
+
 from studies.clearance import figures
 from studies.clearance.figures import CASES, COLUMNS, DRY, FRICTION, IDEAL, IDEAL_DRY, SMOOTH
 from studies.common import paper_machine, rise
@@ -28,7 +30,6 @@ from studies.common.numbers import (
     short,
     witnessed,
 )
-from studies.common.options import Options
 from studies.common.paper_machine import (
     CLEARANCE_MM,
     CONTACT_TITLES,
@@ -41,9 +42,8 @@ from studies.common.paper_machine import (
 )
 from studies.common.rise import DEGREES
 from studies.common.runs import impacts
-from studies.common.study import Study, StudyOutcome
+from studies.common.study import Study
 from studies.common.subject import Subject, paper_subject
-from studies.common.witness import run_and_measure
 from studies.common.words import text_table
 from support_exudyn import Result, Scenario
 from support_exudyn.postprocessing.figures.linkage_drawing import machine_drawing
@@ -299,56 +299,75 @@ def tiles(found: Found) -> tuple[KeyNumber, ...]:
 # --- the studies ---
 
 
-def influence_work(chosen: Options) -> StudyOutcome:
-    """The four rises and those with line contact, their numbers, figures and tables."""
-    cases = influence_cases()
-    made, numbers = run_and_measure(cases, influence_numbers, chosen)
-    results = {name: made[name] for name in CASES}
-    drawings = figures.influence_figures(results)
-    drawings["machine"] = machine_drawing(cases[DRY], marked=(PIN,))
-    return StudyOutcome(
-        numbers,
-        {"run": sys.modules[__name__], "paper": paper_machine},
-        drawings,
-        influence_tables(numbers),
-        results,
-        live=figures.LIVE,
-        tiles=tiles(by_case(numbers)),
-        has_witness=True,
-    )
+class ClearanceInfluence(Study):
+    """What do 1.5 mm of clearance in the rear-link pin do to the rise? (Section 3 of the paper.)"""
+
+    name, seconds, sentences = "clearance_influence", 12.0, "influence.md.j2"
+    has_witness = True
+    live = figures.LIVE
+
+    def cases(self) -> dict[str, Scenario]:
+        """The four rises, and those with line contact."""
+        return influence_cases()
+
+    def measure(self, runs: Mapping[str, Result]) -> list[Number]:
+        """All numbers of section 3."""
+        return influence_numbers(runs)
+
+    def saved(self) -> dict[str, Result]:
+        """The four rises."""
+        return {name: self.runs[name] for name in CASES}
+
+    def figures(self) -> dict[str, Figure]:
+        """Counterparts of Fig. 3 to 5, and the machine."""
+        machine = machine_drawing(self.runs[DRY].scenario, marked=(PIN,))
+        return figures.influence_figures(self.saved()) | {"machine": machine}
+
+    def tables(self) -> dict[str, Sheet]:
+        """Numbers by case, and by contact."""
+        return influence_tables(self.numbers)
+
+    def tiles(self) -> tuple[KeyNumber, ...]:
+        """The ideal pin against 1.5 mm."""
+        return tiles(self.found)
+
+    def words(self) -> dict[str, object]:
+        return {"run": sys.modules[__name__], "paper": paper_machine}
 
 
-def size_work(chosen: Options) -> StudyOutcome:
-    """All rises of section 4, their numbers, figures and tables."""
-    subject = chosen.subject
-    results, numbers = run_and_measure(size_cases(subject), partial(size_numbers, subject), chosen)
-    found = by_case(numbers)
-    words = {
-        "case_name": case_name,
-        "ideal_name": ideal_name,
-        "sizes": SIZES_MM,
-        "frictions": (subject.friction, 0.0),
-        "mu": subject.friction,
-        "watched": subject.watched,
-        "window": f"{subject.watched.window:g} s",
-        "has_tip": ("mean_tip_shift", ideal_name(0.0)) in found,
-    }
-    drawings, tables = figures.size_figures(subject, results, found), size_tables(subject, numbers)
-    return StudyOutcome(numbers, words, drawings, tables, results, live=figures.LIVE, has_witness=True)
+class ClearanceSize(Study):
+    """What does the clearance's size change in the rise: motion, force, posture? (Section 4 of the paper.)"""
 
+    name, seconds, sentences = "clearance_size", 14.0, "size.md.j2"
+    own_machine = has_witness = True
+    live = figures.LIVE
 
-influence = Study(
-    "clearance_influence",
-    "What do 1.5 mm of clearance in the rear-link pin do to the rise? (Section 3 of the paper.)",
-    influence_work,
-    seconds=12.0,
-    sentences="clearance/influence.md.j2",
-)
-size = Study(
-    "clearance_size",
-    "What does the size of the clearance change in the rise: motion, force, posture? (Section 4 of the paper.)",
-    size_work,
-    seconds=14.0,
-    own_machine=True,
-    sentences="clearance/size.md.j2",
-)
+    def cases(self) -> dict[str, Scenario]:
+        """The ideal pin and every clearance."""
+        return size_cases(self.subject)
+
+    def measure(self, runs: Mapping[str, Result]) -> list[Number]:
+        """All numbers of section 4."""
+        return size_numbers(self.subject, runs)
+
+    def figures(self) -> dict[str, Figure]:
+        """Counterparts of Fig. 6 to 12, and trends."""
+        return figures.size_figures(self.subject, self.runs, self.found)
+
+    def tables(self) -> dict[str, Sheet]:
+        """Numbers by clearance."""
+        return size_tables(self.subject, self.numbers)
+
+    def words(self) -> dict[str, object]:
+        """Names of cases, and what the machine has."""
+        mu, watched = self.subject.friction, self.subject.watched
+        return {
+            "case_name": case_name,
+            "ideal_name": ideal_name,
+            "sizes": SIZES_MM,
+            "frictions": (mu, 0.0),
+            "mu": mu,
+            "watched": watched,
+            "window": f"{watched.window:g} s",
+            "has_tip": ("mean_tip_shift", ideal_name(0.0)) in self.found,
+        }

@@ -11,6 +11,7 @@ import numpy.typing as npt
 from studies.common.rise import Crest, Versus
 from studies.common.runs import halvings
 from support_exudyn import Result
+from support_exudyn.postprocessing.page.pieces import Sheet
 
 DIGITS = 5  # of a number in a sentence
 MOST_DIGITS = 6  # of a number in a table: where its error is smaller, all that are shown are right
@@ -194,8 +195,8 @@ def short(number: Number, scale: float = 1.0, unit: str | None = None) -> str:
     return said(number, scale, unit, 3)
 
 
-def number_rows(numbers: Sequence[Number]) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
-    """Header and rows of the table of all numbers; columns that no number fills are left out."""
+def number_table(numbers: Sequence[Number]) -> Sheet:
+    """The table of all numbers; columns that no number fills are left out."""
     columns: dict[str, Callable[[Number], str]] = {
         "quantity": lambda one: one.name.replace("_", " "),
         "case": lambda one: one.case,
@@ -205,9 +206,9 @@ def number_rows(numbers: Sequence[Number]) -> tuple[tuple[str, ...], list[tuple[
         "witness": witnessed,
         "difference": difference,
     }
-    filled = {name: [get(one) for one in numbers] for name, get in columns.items()}
+    filled = {name: tuple(get(one) for one in numbers) for name, get in columns.items()}
     shown = {name: cells for name, cells in filled.items() if any(cells)}
-    return tuple(shown), list(zip(*shown.values(), strict=True))
+    return Sheet("", tuple(shown), tuple(zip(*shown.values(), strict=True)), left=3)
 
 
 def witnessed(number: Number) -> str:

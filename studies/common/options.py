@@ -1,18 +1,11 @@
 """How studies are run: where, by how many processes, how large, and on whose machine."""
 
-import os
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Annotated
 
-from cyclopts import Parameter
-
-from studies.common.subject import Subject, own_subject, paper_subject
-from support_exudyn.commands.command_line import Imports, at_most, import_modules, warn
+from studies.common.subject import Subject, paper_subject
 from support_exudyn.sweeps.workers import Workers
-from user_forces.values.value import InputError
 
-MOST_WORKERS, MOST_MACHINES, MOST_RUNS = 1024, 100_000, 1_000_000
 KEPT, WITNESSES = "kept", "witness"  # folders of runs, beside those of the studies
 
 
@@ -43,37 +36,3 @@ class Options:
     def of_study(self, name: str, workers: Workers) -> "Options":
         """These options for one of several studies, in a folder of its own."""
         return replace(self, out=self.out / name, workers=workers)
-
-
-@Parameter(name="*")
-@dataclass(frozen=True)
-class OptionWords:
-    """How studies are run, as their command line says it.
-
-    Args:
-        out: Folder for output (results).
-        workers: Processes (all cores).
-        machines: Machines that claims draws (80; with --all more).
-        runs: Scenes that extremes draws; blow: its small form.
-        machine: Your machine or scenario in place of the paper's: a TOML file, or a shipped machine's name.
-        pin: The pin of your machine that gets clearance (rear_base).
-    """
-
-    out: Path = Path("results")
-    workers: Annotated[int, at_most(MOST_WORKERS)] = os.cpu_count() or 1
-    machines: Annotated[int | None, at_most(MOST_MACHINES)] = None
-    runs: Annotated[int | None, at_most(MOST_RUNS)] = None
-    machine: Path | None = None
-    pin: str | None = None
-    imports: Imports = ()
-
-    def options(self) -> Options:
-        """The options that are meant. Raises InputError or OSError if the machine cannot be read."""
-        if self.machine is None and self.pin is not None:
-            raise InputError(f"--pin {self.pin}: allowed: together with --machine FILE")
-        import_modules(self.imports)
-        subject = own_subject(self.machine, self.pin) if self.machine else paper_subject()
-        if subject.is_slow:
-            only = "only the Exudyn formulation covers it: minutes, where --list prints seconds"
-            warn(f"--machine {self.machine}: {only}")
-        return Options(self.out, self.workers, self.out / KEPT, self.machines, self.runs, subject)

@@ -1,4 +1,4 @@
-"""What a study is and how it is run: its folder, and everything that it leaves there."""
+"""What a study is, and everything that it leaves in its folder."""
 
 import csv
 import json
@@ -8,28 +8,29 @@ import textwrap
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import asdict, replace
+from functools import cached_property
 from pathlib import Path
+from typing import ClassVar
 
 from matplotlib.figure import Figure
 from rich.console import Console
 
 from studies.common import witness
-from studies.common.numbers import LONGEST, NUMBERS, Number, by_case, number_rows
-from studies.common.options import Options
-from studies.common.runs import file_name
-from studies.common.words import (
-    FILE,
-    Chapter,
-    JudgedClaim,
-    Picture,
-    filled,
-    items,
-    text_table,
-    titled,
-    without_references,
+from studies.common.numbers import (
+    LONGEST,
+    NUMBERS,
+    Found,
+    Measures,
+    Number,
+    by_case,
+    measured_all,
+    number_table,
 )
-from support_exudyn import Result
+from studies.common.options import Options
+from studies.common.runs import file_name, run_with_errors
+from studies.common.words import FILE, Chapter, JudgedClaim, Picture, filled, titled, without_references
+from support_exudyn import Result, Scenario
 from support_exudyn.commands.command_line import answered, say
 from support_exudyn.files.whole_file import remove_leftovers, whole_file, writing_alone
 from support_exudyn.postprocessing.figures import style
@@ -45,161 +46,182 @@ LivePanels = Sequence[int] | Mapping[int, str]  # of a live figure, see `of_draw
 ALL_NUMBERS = "All numbers of the study; the number behind ± is the numerical error"
 
 
-@dataclass(frozen=True)
-class StudyOutcome:
-    """The results of a study.
-
-    numbers: of summary.json. words: what the sentences of words.md.j2 are filled with, by name, besides the
-    numbers by name and case (`found`), the runs and the subject. figures, tables: by the name of their files.
-    runs: by that of their case. counts: of its own, for the summary. live: which panels of a figure are time
-    series that the report lets readers look into, by the figure's name. tiles: numbers on the first screen of
-    the report. claims: see `JudgedClaim`. has_witness: whether numbers are those of Exudyn and its witness.
-    """
-
-    numbers: Sequence[Number]
-    words: Mapping[str, object]
-    figures: Mapping[str, Figure]
-    tables: Mapping[str, Sheet]
-    runs: Mapping[str, Result] = field(default_factory=dict)
-    counts: Mapping[str, int] = field(default_factory=dict)
-    live: Mapping[str, LivePanels] = field(default_factory=dict)
-    tiles: Sequence[KeyNumber] = ()
-    claims: Sequence[JudgedClaim] = ()
-    has_witness: bool = False
-
-
-@dataclass(frozen=True)
 class Study:
-    """A study: a question, and the work that answers it.
+    """A question and the work that answers it.
 
-    name: of its folder. asks: the docstring of its module, whose first line is its question. work: computes all
-    that it leaves. seconds: that it takes on two cores, once all is compiled. own_machine: whether it can be
-    about the user's machine. sentences: their template below `studies`; empty: words.md.j2 in its folder.
+    A study is a class whose docstring is its question; an object is that study with the options of a command.
+    It has cases and measures, or its own `work`; figures, tables and words follow from the runs and numbers.
+
+    Attributes:
+        name: of its folder.
+        seconds: that it takes on two cores, once all is compiled.
+        own_machine: whether it can be about the user's machine.
+        sentences: file of the template in the folder of its module.
+        has_witness: whether its cases are run on Exudyn and by the witness, see `studies.common.witness`.
+        live: panels of a figure that readers of the report can zoom, by the figure's name.
+        papers: printed values of numbers by name and case.
+        runs: all runs by case, once `work` is done.
+        numbers: all numbers, once `work` is done.
     """
 
-    name: str
-    asks: str | None
-    work: Callable[[Options], StudyOutcome]
-    seconds: float = 60.0
-    own_machine: bool = False
-    sentences: str = ""
+    name: ClassVar[str]
+    seconds: ClassVar[float] = 60.0
+    own_machine: ClassVar[bool] = False
+    sentences: ClassVar[str] = "words.md.j2"
+    has_witness: ClassVar[bool] = False
+    live: ClassVar[Mapping[str, LivePanels]] = {}
+    papers: Mapping[tuple[str, str], float] = {}
 
-    @property
-    def template(self) -> str:
-        """The template of its sentences, below `studies`."""
-        return self.sentences or f"{self.name}/words.md.j2"
+    def __init__(self, chosen: Options) -> None:
+        if not (self.own_machine or chosen.subject.is_paper):
+            raise InputError(f"--machine: {self.name} is about the paper's machine alone; allowed: without it")
+        self.chosen, self.subject = chosen, chosen.subject
+        self.runs: Mapping[str, Result] = {}
+        self.numbers: Sequence[Number] = ()
 
-    @property
-    def question(self) -> str:
+    @classmethod
+    def question(cls) -> str:
         """The question, in a line."""
-        return (self.asks or "").splitlines()[0]
+        return (cls.__doc__ or "").splitlines()[0]
 
-    def __call__(self, chosen: Options) -> Chapter:
+    @classmethod
+    def template(cls) -> str:
+        """The template of the sentences, below `studies`."""
+        return f"{cls.__module__.split('.')[1]}/{cls.sentences}"
+
+    @cached_property
+    def found(self) -> Found:
+        """All numbers by name and case."""
+        return by_case(self.numbers)
+
+    # --- what the studies define ---
+
+    def cases(self) -> Mapping[str, Scenario]:
+        """Scenarios by the name of their case."""
+        raise NotImplementedError
+
+    def measures(self, run: Result) -> Measures:
+        """Unit and measure of every number of a run, by name."""
+        raise NotImplementedError
+
+    def ideal_of(self, case: str) -> str:
+        """The case with ideal pins with which a case is compared."""
+        return case
+
+    def measure(self, runs: Mapping[str, Result]) -> list[Number]:
+        """All numbers of these runs of the cases."""
+        return measured_all(runs, self.measures, self.ideal_of, self.papers)
+
+    def work(self) -> None:
+        """Run all cases and measure the runs."""
+        if self.has_witness:
+            self.runs, self.numbers = witness.run_and_measure(self.cases(), self.measure, self.chosen)
+        else:
+            self.runs = run_with_errors(self.cases(), self.chosen)
+            self.numbers = self.measure(self.runs)
+
+    def figures(self) -> Mapping[str, Figure]:
+        """Figures by the name of their files."""
+        return {}
+
+    def tables(self) -> Mapping[str, Sheet]:
+        """Tables by the name of their files; title and caption come from the template."""
+        return {}
+
+    def words(self) -> Mapping[str, object]:
+        """What the template is filled with besides `study`, `subject`, `runs` and `found`."""
+        return {}
+
+    def saved(self) -> Mapping[str, Result]:
+        """The runs that are written, by case."""
+        return self.runs
+
+    def tiles(self) -> Sequence[KeyNumber]:
+        """Numbers of the report's first screen."""
+        return ()
+
+    def claims(self) -> Sequence[JudgedClaim]:
+        """Judged statements of the paper."""
+        return ()
+
+    def counts(self) -> Mapping[str, int]:
+        """Counts of its own, for the summary."""
+        return {}
+
+    # --- what all studies have in common ---
+
+    def write(self) -> Chapter:
         """Compute, draw and write everything into the output folder. Returns the chapter.
 
         Raises KeyError if the template has no title for a table.
         """
-        if not (self.own_machine or chosen.subject.is_paper):
-            raise InputError(f"--machine: {self.name} is about the paper's machine alone; allowed: without it")
-        started = time.perf_counter()
+        started, out = time.perf_counter(), self.chosen.out
         with style.look():
-            found = self.work(chosen)
-        for case, run in found.runs.items():  # one at chosen steps without its coarser ones, which treble it
+            self.work()
+            drawings = self.figures()
+        for (
+            case,
+            run,
+        ) in self.saved().items():  # without the coarser ones of chosen steps, which treble the file
             kept = run if run.goal is not None else replace(run, coarser=None)
-            kept.save(chosen.out / "runs" / f"{file_name(case)}.h5")
-        save_figures(chosen, found.figures, found.live)
-        chapter, sheets = self._chapter(found, chosen)
-        for name, sheet in sheets.items():
-            save_table(chosen.out / f"{name}.csv", sheet)
-        _write(chosen.out / FILE, chapter.model_dump_json(indent=1))
-        summary = {
-            "study": self.name,
-            "versions": versions(),
-            "wall_s": round(time.perf_counter() - started, 3),
-            **found.counts,
-            "numbers": [asdict(number) for number in found.numbers],
+            kept.save(out / "runs" / f"{file_name(case)}.h5")
+        jobs = [(drawing, out, name, self.live.get(name, ())) for name, drawing in drawings.items()]
+        if isinstance(self.chosen.workers, Workers):
+            self.chosen.workers.run(jobs, _save_figure, lambda shares: None)
+        else:  # starting a pool takes longer
+            for place, job in enumerate(jobs):
+                _save_figure(place, *job)
+        chapter = self._chapter(drawings, round(time.perf_counter() - started, 3))
+        numbers = [asdict(number) for number in self.numbers]
+        about = {"study": self.name, "versions": chapter.versions, "wall_s": chapter.wall_s}
+        texts = {
+            FILE: chapter.model_dump_json(indent=1),
+            "summary.json": json.dumps(
+                {**about, **self.counts(), "numbers": numbers}, indent=1, allow_nan=False
+            ),
         }
-        _write(chosen.out / "summary.json", json.dumps(summary, indent=1, allow_nan=False))
+        for file, text in texts.items():
+            with whole_file(out / file) as temporary:
+                temporary.write_text(text + "\n", encoding="utf-8")
         return chapter
 
-    def _chapter(self, found: StudyOutcome, chosen: Options) -> tuple[Chapter, dict[str, Sheet]]:
-        """The chapter of the report, and all tables by name, those that are too long for it among them.
+    def _chapter(self, drawings: Mapping[str, Figure], wall_s: float) -> Chapter:
+        """The chapter of the report; all tables are written, those too long for the chapter among them.
 
         A study with a witness names engine and method in every caption, and what the witness confirms.
         """
-        subject, of_all = chosen.subject, found.numbers
-        numbers = {"subject": subject, "runs": found.runs, "found": by_case(of_all), **found.words}
-        blocks = filled(self.template, numbers)
-        blocks.setdefault(NUMBERS, [ALL_NUMBERS])
-        tables = {**found.tables, NUMBERS: text_table(*number_rows(of_all), left=3)}
-        sheets = {name: titled(table, name, blocks) for name, table in tables.items()}
-        by, confirmed = (witness.computed_by(), [witness.verdict(of_all)]) if found.has_witness else ("", [])
-        if by:
-            there = f" Witness of every number, and the difference: [@{NUMBERS}]."
-            for name, one in sheets.items():
-                caption = f"{one.caption} {by}{'' if name == NUMBERS else there}".strip()
-                sheets[name] = replace(one, caption=caption)
-        pictures = (item.partition(": ") for item in items(blocks, "Figures"))
-        title = next(iter(blocks))
-        chapter = Chapter(
-            study=self.name,
-            machine=subject.name,
-            contact="" if subject.is_paper else subject.contact_in_words,
-            title=title,
-            question=" ".join(blocks[title]),
-            answer=" ".join(blocks.get("Answer", ())),
-            numbers=items(blocks, "Numbers"),
-            method=(*blocks["Method"], *([by] if by else ())),
-            findings=(*items(blocks, "Findings"), *confirmed),
-            pictures=tuple(Picture(stem, caption) for stem, _, caption in pictures if stem in found.figures),
-            sheets=tuple(one for one in sheets.values() if len(one.rows) <= LONGEST),
-            tiles=tuple(found.tiles),
-            claims=tuple(found.claims),
-            computed_by=by,
+        every_run = {"study": self, "subject": self.subject, "runs": self.runs, "found": self.found}
+        blocks = {NUMBERS: [ALL_NUMBERS]} | filled(self.template(), {**every_run, **self.words()})
+        title, question = next((name, text) for name, text in blocks.items() if name != NUMBERS)
+        by, confirmed = (
+            (witness.computed_by(), [witness.verdict(self.numbers)]) if self.has_witness else ("", [])
         )
-        return chapter, sheets
-
-
-def _write(path: Path, text: str) -> None:
-    with whole_file(path) as temporary:
-        temporary.write_text(text + "\n", encoding="utf-8")
-
-
-def work_in_folder(work: Callable[[Path], None], out: Path) -> int:
-    """Fill an output folder; what the user can mend is printed in a sentence. Returns the exit code."""
-
-    def done() -> None:
-        with output_folder(out):
-            work(out)
-
-    return answered(done)
-
-
-def say_short(chapter: Chapter, out: Path) -> None:
-    """Print a study in ten lines: question, answer, three numbers, where to look."""
-    lines = [f"question  {chapter.question}", f"answer    {chapter.answer}"]
-    lines += [f"        - {number}" for number in chapter.numbers]
-    say(f"\n{chapter.study}")
-    for line in lines:
-        whole = unbroken(without_references(line))
-        wrapped = textwrap.fill(whole, 100, subsequent_indent=10 * " ")
-        say(wrapped.replace(HARD_SPACE, " "))
-    say(f"look at   {out}")
-
-
-def save_figures(
-    chosen: Options, drawings: Mapping[str, Figure], live: Mapping[str, LivePanels] | None = None
-) -> None:
-    """Write a study's figures into its folder, as PNG, PDF and CSV; side by side if there is a pool.
-
-    live: which panels of a figure are written as a live figure, too, see `of_drawing`.
-    """
-    jobs = [(drawing, chosen.out, name, (live or {}).get(name, ())) for name, drawing in drawings.items()]
-    if isinstance(chosen.workers, Workers):
-        chosen.workers.run(jobs, _save_figure, lambda shares: None)
-    else:  # starting a pool takes longer
-        for place, job in enumerate(jobs):
-            _save_figure(place, *job)
+        sheets = []
+        for name, table in {**self.tables(), NUMBERS: number_table(self.numbers)}.items():
+            sheet = titled(table, name, blocks)
+            there = f" Witness of every number, and the difference: [@{NUMBERS}]." if name != NUMBERS else ""
+            sheet = replace(sheet, caption=f"{sheet.caption} {by}{there}".strip()) if by else sheet
+            save_table(self.chosen.out / f"{name}.csv", sheet)
+            sheets.append(sheet)
+        pictures = (item.partition(": ") for item in blocks.get("Figures", ()))
+        return Chapter(
+            study=self.name,
+            machine=self.subject.name,
+            contact="" if self.subject.is_paper else self.subject.contact_in_words,
+            title=title,
+            question=" ".join(question),
+            answer=" ".join(blocks.get("Answer", ())),
+            numbers=tuple(blocks.get("Numbers", ())),
+            method=(*blocks["Method"], *([by] if by else ())),
+            findings=(*blocks.get("Findings", ()), *confirmed),
+            pictures=tuple(Picture(stem, caption) for stem, _, caption in pictures if stem in drawings),
+            sheets=tuple(sheet for sheet in sheets if len(sheet.rows) <= LONGEST),
+            tiles=tuple(self.tiles()),
+            claims=tuple(self.claims()),
+            computed_by=by,
+            wall_s=wall_s,
+            versions=versions(),
+        )
 
 
 def _save_figure(place: int, drawing: Figure, out: Path, name: str, live: LivePanels) -> None:
@@ -209,6 +231,17 @@ def _save_figure(place: int, drawing: Figure, out: Path, name: str, live: LivePa
     save_drawing_data(drawing, out / f"{name}.csv")
     if live:
         of_drawing(drawing, live).save(out / f"{name}.live.json")
+
+
+def say_short(chapter: Chapter, out: Path) -> None:
+    """Print a study in ten lines: question, answer, three numbers, where to look."""
+    lines = [f"question  {chapter.question}", f"answer    {chapter.answer}"]
+    lines += [f"        - {number}" for number in chapter.numbers]
+    say(f"\n{chapter.study}")
+    for line in lines:
+        wrapped = textwrap.fill(unbroken(without_references(line)), 100, subsequent_indent=10 * " ")
+        say(wrapped.replace(HARD_SPACE, " "))
+    say(f"look at   {out}")
 
 
 def print_table(table: Sheet, width: int) -> None:
@@ -222,6 +255,16 @@ def save_table(path: Path, table: Sheet) -> None:
         writer = csv.writer(file)
         writer.writerow(table.header)
         writer.writerows(map(without_references, row) for row in table.rows)
+
+
+def work_in_folder(work: Callable[[Path], None], out: Path) -> int:
+    """Fill an output folder; what the user can mend is printed in a sentence. Returns the exit code."""
+
+    def done() -> None:
+        with output_folder(out):
+            work(out)
+
+    return answered(done)
 
 
 @contextmanager

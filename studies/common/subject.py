@@ -147,6 +147,13 @@ def paper_subject() -> Subject:
     return Subject(paper_machine.ideal_rise(paper_machine.STEP), paper_machine.CLEARANCE_PIN)
 
 
+def chosen_subject(machine: Path | None, pin: str | None) -> Subject:
+    """The subject of a command line. Raises InputError or OSError if the machine cannot be read."""
+    if machine is None and pin is not None:
+        raise InputError(f"--pin {pin}: allowed: together with --machine FILE")
+    return own_subject(machine, pin) if machine else paper_subject()
+
+
 def own_subject(path: Path, pin: str | None = None) -> Subject:
     """The machine of a TOML file: of a machine, which then does the paper's rise, or of a scenario.
 

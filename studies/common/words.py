@@ -17,7 +17,6 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
-from typing import TypeVar
 
 from jinja2 import ChoiceLoader, Environment, PackageLoader, StrictUndefined
 from pydantic import BaseModel, ConfigDict, ValidationError
@@ -26,8 +25,6 @@ from studies.common import numbers
 from support_exudyn.files.whole_file import contents
 from support_exudyn.postprocessing.page.pieces import KeyNumber, Sheet
 from user_forces.values.value import InputError
-
-Blocks = Mapping[str, Sequence[str]]  # paragraphs and items of lists, by their heading
 
 
 def text_table(
@@ -64,19 +61,14 @@ def filled(template: str, numbers_by_name: Mapping[str, object]) -> dict[str, li
         if line.startswith("#"):
             here = found.setdefault(text.lstrip("# "), [])
         elif text and (begins or text.startswith("- ")):
-            here.append(text)
+            here.append(text.removeprefix("- "))
         elif text:
             here[-1] += f" {text}"
         begins = not text or line.startswith("#")
     return found
 
 
-def items(blocks: Blocks, heading: str) -> tuple[str, ...]:
-    """The items of the list below a heading; none without the heading."""
-    return tuple(block.removeprefix("- ") for block in blocks.get(heading, ()))
-
-
-def titled(table: Sheet, name: str, blocks: Blocks) -> Sheet:
+def titled(table: Sheet, name: str, blocks: Mapping[str, Sequence[str]]) -> Sheet:
     """A table with its name, and with title and caption from the blocks of a template.
 
     Raises KeyError if the template has no title for the table.
@@ -128,7 +120,8 @@ class Chapter(BaseModel):
     findings: bullet points, with the numbers of this very run. pictures, sheets: the key ones first. tiles: for
     the first screen of the report. claims: of the study that judges them. machine: the name of the
     user's machine that it is about; empty: the paper's. contact: of the user's pin, in a sentence. computed_by:
-    engine and method in a sentence, where the report's first screen is to name them.
+    engine and method in a sentence, where the report's first screen is to name them. wall_s: that the study
+    took [s]. versions: of the packages that made it.
     """
 
     model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
@@ -147,26 +140,21 @@ class Chapter(BaseModel):
     machine: str = ""
     contact: str = ""
     computed_by: str = ""
+    wall_s: float = 0.0
+    versions: Mapping[str, str] = {}
 
     @staticmethod
     def load(folder: Path) -> Chapter:
-        """Read a chapter. Raises InputError with the file and the reason."""
-        return read_stored(Chapter, folder / FILE)
-
-
-Read = TypeVar("Read", bound=BaseModel)
-
-
-def read_stored(model: type[Read], path: Path) -> Read:
-    """Read data that a study has left as JSON. Raises InputError with the file, the place and the reason."""
-    try:
-        return model.model_validate_json(contents(path, LARGEST_FILE))
-    except FileNotFoundError:
-        raise InputError(f"{path}: no such file; the study that writes it has not run here") from None
-    except ValidationError as error:
-        first = error.errors()[0]
-        place = ".".join(map(str, first["loc"]))
-        raise InputError(f"{path}: {place}: {first['msg']}") from None
+        """Read a chapter. Raises InputError with the file, the place and the reason."""
+        path = folder / FILE
+        try:
+            return Chapter.model_validate_json(contents(path, LARGEST_FILE))
+        except FileNotFoundError:
+            raise InputError(f"{path}: no such file; the study that writes it has not run here") from None
+        except ValidationError as error:
+            first = error.errors()[0]
+            place = ".".join(map(str, first["loc"]))
+            raise InputError(f"{path}: {place}: {first['msg']}") from None
 
 
 def without_references(text: str) -> str:

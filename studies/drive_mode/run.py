@@ -6,16 +6,15 @@ limit, and on hydraulic cylinders, which no displacement drives but the oil that
 """
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import cached_property
 
 import numpy as np
 from matplotlib.figure import Figure
 
 from studies.common import rise
-from studies.common.numbers import Found, Number, against, by_case, cell, measured_all
-from studies.common.options import Options
+from studies.common.numbers import Found, Measures, Number, against, by_case, cell
 from studies.common.panels import finish, grid, heading
-from studies.common.study import LivePanels, Study, StudyOutcome
-from studies.common.witness import run_and_measure
+from studies.common.study import LivePanels, Study
 from studies.common.words import text_table
 from studies.drive_mode import cases
 from studies.drive_mode.cases import (
@@ -35,7 +34,7 @@ from studies.drive_mode.cases import (
     extension,
     start_name,
 )
-from support_exudyn import Result, SuddenOpening
+from support_exudyn import Result, Scenario, SuddenOpening
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.page.pieces import Sheet
 
@@ -165,43 +164,66 @@ def by_mode(plan: ModePlan, results: Mapping[str, Result], columns: str, curves:
 # --- the study ---
 
 
-def work(chosen: Options) -> StudyOutcome:
-    """Both modes on all kinds of columns, and the start by assumptions."""
-    plan = ModePlan(chosen.subject)
-    made, numbers = run_and_measure(
-        {**plan.scenarios, **plan.starts}, lambda runs: measured_all(runs, plan.measures), chosen
-    )
-    results, found = {name: made[name] for name in plan.scenarios}, by_case(numbers)
-    (ideal, with_clearance), is_paper = plan.pins, plan.subject.is_paper
-    struck = case_name("mode 1", with_clearance, "rigid")  # by the sudden start
-
-    def heat(mode: str) -> float:
-        of = case_name(mode, ideal, "cylinder")
-        return 100.0 * found["loss_in_valves", of].value / found["work_of_pumps", of].value
-
-    words = {
-        "cases": cases,
-        "plan": plan,
-        "case_name": case_name,
-        "START": START,
-        "STOP": STOP,
-        "ideal": ideal,
-        "with_clearance": with_clearance,
-        "softest": "oil" if "oil" in plan.columns else "rigid",
-        "drive": plan.drive("mode 1", plan.leading[0]),
-        "impulses": [name for name, case in found if name.startswith("impulse") and case == struck],
-        "heat": {mode: heat(mode) for mode in MODES} if is_paper else {},
-        "assumed": {"peak": peak, "band": band} if is_paper else None,
-        "velocity_converges": is_paper and velocity_converges(found),
-    }
-    drawings, sheets = figures(plan, results), tables(plan, numbers)
-    return StudyOutcome(numbers, words, drawings, sheets, results, live=LIVE, has_witness=True)
-
-
 def velocity_converges(found: Found) -> bool:
     """Whether the paper's Fig. 13 b, for mode 1 on rigid columns, has a limit: its errors are small."""
     numbers = [found[VELOCITY, case_name("mode 1", pin, "rigid")] for pin in PINS]
     return all(one.numerical_error <= CONVERGED * one.value for one in numbers)
 
 
-study = Study("drive_mode", __doc__, work, seconds=50.0, own_machine=True)
+class DriveMode(Study):
+    """What does the oil inlet's drive mode do to the rise? (Section 5 of the paper.)"""
+
+    name, seconds = "drive_mode", 50.0
+    own_machine = has_witness = True
+    live = LIVE
+
+    @cached_property
+    def plan(self) -> ModePlan:
+        """The cases of the machine."""
+        return ModePlan(self.subject)
+
+    def cases(self) -> dict[str, Scenario]:
+        """Both modes on all kinds of columns, and the start by assumptions."""
+        return {**self.plan.scenarios, **self.plan.starts}
+
+    def measures(self, run: Result) -> Measures:
+        """Every number that has a limit."""
+        return self.plan.measures(run)
+
+    def saved(self) -> dict[str, Result]:
+        """The rises."""
+        return {name: self.runs[name] for name in self.plan.scenarios}
+
+    def figures(self) -> dict[str, Figure]:
+        """Counterparts of Fig. 13."""
+        return figures(self.plan, self.saved())
+
+    def tables(self) -> dict[str, Sheet]:
+        """Largest forces, savings, the band of the oil."""
+        return tables(self.plan, self.numbers)
+
+    def words(self) -> dict[str, object]:
+        """Cases, and what is computed of several."""
+        plan, found, is_paper = self.plan, self.found, self.subject.is_paper
+        ideal, with_clearance = plan.pins
+        struck = case_name("mode 1", with_clearance, "rigid")  # by the sudden start
+
+        def heat(mode: str) -> float:
+            of = case_name(mode, ideal, "cylinder")
+            return 100.0 * found["loss_in_valves", of].value / found["work_of_pumps", of].value
+
+        return {
+            "cases": cases,
+            "plan": plan,
+            "case_name": case_name,
+            "START": START,
+            "STOP": STOP,
+            "ideal": ideal,
+            "with_clearance": with_clearance,
+            "softest": "oil" if "oil" in plan.columns else "rigid",
+            "drive": plan.drive("mode 1", plan.leading[0]),
+            "impulses": [name for name, case in found if name.startswith("impulse") and case == struck],
+            "heat": {mode: heat(mode) for mode in MODES} if is_paper else {},
+            "assumed": {"peak": peak, "band": band} if is_paper else None,
+            "velocity_converges": is_paper and velocity_converges(found),
+        }

@@ -14,12 +14,10 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from studies.common import paper_machine, rise
-from studies.common.numbers import Found, Measures, by_case, cell, measured_all
-from studies.common.options import Options
+from studies.common.numbers import Found, Measures, cell
 from studies.common.panels import finish, grid
 from studies.common.paper_machine import CLEARANCE_MM
-from studies.common.runs import run_with_errors
-from studies.common.study import Study, StudyOutcome
+from studies.common.study import Study
 from studies.common.subject import paper_subject
 from studies.common.words import text_table
 from studies.drive_mode.cases import extension, extension_at, speed
@@ -199,13 +197,27 @@ def _label(panels: np.ndarray, labels: Sequence[str]) -> None:
         axes.set_ylabel(label)
 
 
-def work(chosen: Options) -> StudyOutcome:
-    """Both modes on both pumps, with both pins, and with oil that pulls."""
-    results = run_with_errors(scenarios(), chosen)
-    numbers = measured_all(results, measures)
-    words = {"case_name": case_name, "pumps": PUMPS, "pins": PINS}
-    drawings = {"rise_by_valves": rise_figure(results), "opening": start_figure(results)}
-    return StudyOutcome(numbers, words, drawings, {"table_pin": pin_table(by_case(numbers))}, results)
+class ValveModes(Study):
+    """What do the paper's drive modes become if valves and a pump make them?"""
 
+    name, seconds, sentences = "valve_modes", 40.0, "valves.md.j2"
 
-study = Study("valve_modes", __doc__, work, seconds=40.0, sentences="drive_mode/valves.md.j2")
+    def cases(self) -> Mapping[str, Scenario]:
+        """Both modes on both pumps, with both pins, and with oil that pulls."""
+        return scenarios()
+
+    def measures(self, run: Result) -> Measures:
+        """Forces, pressures, speeds, cavities."""
+        return measures(run)
+
+    def figures(self) -> dict[str, Figure]:
+        """The rise, and its first instants."""
+        return {"rise_by_valves": rise_figure(self.runs), "opening": start_figure(self.runs)}
+
+    def tables(self) -> dict[str, Sheet]:
+        """The pin's largest force."""
+        return {"table_pin": pin_table(self.found)}
+
+    def words(self) -> dict[str, object]:
+        """Names of cases."""
+        return {"case_name": case_name, "pumps": PUMPS, "pins": PINS}

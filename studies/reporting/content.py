@@ -8,10 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from pydantic import BaseModel
-
 from studies.common import paper_machine
-from studies.common.words import Chapter, filled, read_stored, text_table, titled
+from studies.common.words import Chapter, filled, text_table, titled
 from support_exudyn import CubicStep, HydraulicSupport, reference_support
 from support_exudyn.model.linkage import lumped
 from support_exudyn.postprocessing.page.live import LiveFigure
@@ -21,34 +19,24 @@ from user_forces import STEEL, STEEL_35CRMO
 from user_forces.values.value import InputError
 
 
-class Summary(BaseModel, strict=True):
-    """The part of a study's summary.json that the report shows."""
-
-    versions: dict[str, str]
-    wall_s: float
-
-
 @dataclass(frozen=True)
 class ReportSection:
-    """A chapter, the folder of its files, its live figures, its time [s] and the versions that made it."""
+    """A chapter, the folder of its files, and its live figures."""
 
     folder: Path
     chapter: Chapter
-    wall_s: float
-    versions: dict[str, str]
     live: Mapping[str, LiveFigure]
 
     @staticmethod
     def load(folder: Path) -> ReportSection:
         """Read the results of a study. Raises InputError with the file and the reason."""
-        chapter, summary = Chapter.load(folder), read_stored(Summary, folder / "summary.json")
-        live = {}
+        chapter, live = Chapter.load(folder), {}
         for picture in chapter.pictures:
             if not (folder / f"{picture.stem}.png").is_file():
                 raise InputError(f"{folder / picture.stem}.png: no such file; the chapter beside it shows it")
             if (data := folder / f"{picture.stem}.live.json").is_file():
                 live[picture.stem] = LiveFigure.load(data)
-        return ReportSection(folder, chapter, summary.wall_s, summary.versions, live)
+        return ReportSection(folder, chapter, live)
 
 
 def around_chapters(sections: Sequence[ReportSection]) -> dict[str, object]:
@@ -67,11 +55,11 @@ def around_chapters(sections: Sequence[ReportSection]) -> dict[str, object]:
         "total_mass": sum(part.mass for parts in support.parts.values() for part in parts),
         "platform": platform.platform(),
     })  # fmt: skip
-    times = [(one.chapter.study, f"{one.wall_s:.1f}") for one in sections]
-    times.append(("together", f"{sum(section.wall_s for section in sections):.1f}"))
+    times = [(one.study, f"{one.wall_s:.1f}") for one in chapters]
+    times.append(("together", f"{sum(one.wall_s for one in chapters):.1f}"))
     versions: dict[str, dict[str, None]] = {}  # several where studies were run with different ones
-    for section in sections:
-        for name, version in section.versions.items():
+    for one in chapters:
+        for name, version in one.versions.items():
             versions.setdefault(name, {})[version] = None
     data = tables(support) if of_paper else {}
     sheets = {

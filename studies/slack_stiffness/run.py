@@ -15,12 +15,11 @@ from itertools import product
 import numpy as np
 from matplotlib.figure import Figure
 
-from studies.common.numbers import Found, Number, by_case, cell, measured
-from studies.common.options import Options
+from studies.common.numbers import Found, Number, cell, measured
 from studies.common.panels import finish, grid
 from studies.common.rise import MeasuredRun, Series, between
 from studies.common.runs import run_cases
-from studies.common.study import Study, StudyOutcome
+from studies.common.study import Study
 from studies.common.support_legs import PAIRS, legs_data, loose_pins, support, tight_pins
 from studies.common.words import text_table
 from support_exudyn import OilColumn, Pin, Result, Scenario
@@ -322,47 +321,59 @@ def slack_figure(found: Found, shares: Shares) -> Figure:
 # --- the study ---
 
 
-def work(chosen: Options) -> StudyOutcome:
-    """All loops, their numbers, figures and tables."""
-    runs = run_cases({case.name: case.scenario() for case in CASES}, chosen)
-    ran = {case.name: (case, runs[case.name]) for case in CASES}
-    shares = {
-        (machine, share): pin_shares(*ran[PushedSupport(machine, 0.0, share, 0.0).name])
-        for machine, share in UNDER_ROOF
-    }
-    factors = [
-        Number("slack_over_clearance", machine, factor(shares, machine), "1", 0.0) for machine in MACHINES
-    ]
-    reported = numbers(ran) + factors
-    found = by_case(reported)
-    off = [  # slack against virtual work
-        abs(found["slack", case.name].value / known - 1.0)
-        for case in CASES
-        if (known := 1e3 * kinematic_slack(case, shares[case.machine, case.roof_share]))
-        and case.roof_share >= MIDDLE
-    ]
+class SlackStiffness(Study):
+    """How much of the linkage's horizontal stiffness does slack in its pins take?"""
 
-    def number(name: str, machine: str, size: float, share: float = MIDDLE, mu: float = FRICTION) -> Number:
-        return found[name, PushedSupport(machine, size, share, mu).name]
+    name, seconds = "slack_stiffness", 400.0
 
-    words = {
-        "plan": sys.modules[__name__],
-        "of": number,
-        "slow": found["slack", SLOW.name],
-        "fast": found["slack", FAST.name],
-        "factors": {one.case: one.value for one in factors},
-        "off": max(off),
-        "left": participation,
-        "middle": MIDDLE,
-    }
-    sheets = {
-        "slack": key_table(found, shares),
-        "participation": participation_table(found),
-        "pins": pin_table(shares),
-    }
-    drawings = {"loops": loop_figure(ran), "slack_and_stiffness": slack_figure(found, shares)}
-    shown = (usual(MACHINES[0], size) for size in (0.0, 1.0))
-    return StudyOutcome(reported, words, drawings, sheets, {name: runs[name] for name in shown})
+    def work(self) -> None:
+        """All loops."""
+        self.runs = run_cases({case.name: case.scenario() for case in CASES}, self.chosen)
+        self.ran = {case.name: (case, self.runs[case.name]) for case in CASES}
+        self.shares = {
+            (machine, share): pin_shares(*self.ran[PushedSupport(machine, 0.0, share, 0.0).name])
+            for machine, share in UNDER_ROOF
+        }
+        self.numbers = numbers(self.ran) + [
+            Number("slack_over_clearance", one, factor(self.shares, one), "1", 0.0) for one in MACHINES
+        ]
 
+    def saved(self) -> dict[str, Result]:
+        """Two loops of the reference support."""
+        return {name: self.runs[name] for name in (usual(MACHINES[0], size) for size in (0.0, 1.0))}
 
-study = Study("slack_stiffness", __doc__, work, seconds=400.0)
+    def figures(self) -> dict[str, Figure]:
+        """All figures."""
+        return {"loops": loop_figure(self.ran), "slack_and_stiffness": slack_figure(self.found, self.shares)}
+
+    def tables(self) -> dict[str, Sheet]:
+        """All tables."""
+        return {
+            "slack": key_table(self.found, self.shares),
+            "participation": participation_table(self.found),
+            "pins": pin_table(self.shares),
+        }
+
+    def words(self) -> dict[str, object]:
+        """Numbers by machine and clearance, and how far virtual work is off."""
+        found = self.found
+        off = [  # slack against virtual work
+            abs(found["slack", case.name].value / known - 1.0)
+            for case in CASES
+            if (known := 1e3 * kinematic_slack(case, self.shares[case.machine, case.roof_share]))
+            and case.roof_share >= MIDDLE
+        ]
+
+        def number(name: str, machine: str, size: float, share: float = MIDDLE, mu: float = FRICTION) -> Number:
+            return found[name, PushedSupport(machine, size, share, mu).name]
+
+        return {
+            "plan": sys.modules[__name__],
+            "of": number,
+            "slow": found["slack", SLOW.name],
+            "fast": found["slack", FAST.name],
+            "factors": {machine: factor(self.shares, machine) for machine in MACHINES},
+            "off": max(off),
+            "left": participation,
+            "middle": MIDDLE,
+        }

@@ -9,17 +9,18 @@ import math
 import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from functools import cached_property
+from typing import ClassVar
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from studies.common.numbers import Found, Measures, by_case, cell, measured_all, off, printed
-from studies.common.options import Options
+from studies.common.numbers import Found, Measures, cell, off, printed
 from studies.common.panels import letters
 from studies.common.rise import Crest, Measure, onset
-from studies.common.runs import impacts, run_with_errors
-from studies.common.study import Study, StudyOutcome
+from studies.common.runs import impacts
+from studies.common.study import Study
 from studies.common.words import text_table
 from support_exudyn import ClearancePin, Result, Scenario, SolverSettings, Steady, ravn_slider_crank
 from support_exudyn.postprocessing.figures import style
@@ -157,27 +158,43 @@ def agreement_table(found: Found, known: Sequence[int]) -> Sheet:
 # --- the study ---
 
 
-def work(chosen: Options) -> StudyOutcome:
-    """A revolution of each machine, its impacts beside the independent solution."""
-    cases = scenarios()
-    results = run_with_errors(cases, chosen)
-    numbers = measured_all(results, measures, papers=KNOWN)
-    found = by_case(numbers)
-    known = [n for n in range(1, len(REFERENCE) + 1) if (f"onset_{n}_time", SMOOTH) in found]
-    words = {
-        "run": sys.modules[__name__],
-        "found": found,
-        "case": cases[SMOOTH],
-        "ideal": [found[name, IDEAL] for name in IDEAL_REFERENCE],
-        "times": [off(found[f"onset_{n}_time", SMOOTH]) for n in known],
-        "speeds": [off(found[f"onset_{n}_speed", SMOOTH]) for n in known],
-        "onsets": [
-            found[f"onset_{n}_time", DRY] for n in range(1, ONSETS + 1) if (f"onset_{n}_time", DRY) in found
-        ],
-    }
-    tables = {"table_agreement": agreement_table(found, known)}
-    drawings, live = {"slider_crank": figure(results)}, {"slider_crank": (0, 1)}
-    return StudyOutcome(numbers, words, drawings, tables, results, live=live)
+class SliderCrank(Study):
+    """Does the program agree with others on the benchmark of a slider-crank with a loose slider pin?"""
 
+    name, seconds = "slider_crank", 18.0
+    live: ClassVar = {"slider_crank": (0, 1)}
+    papers = KNOWN
 
-study = Study("slider_crank", __doc__, work, seconds=18.0)
+    def cases(self) -> dict[str, Scenario]:
+        """A revolution of each machine."""
+        return scenarios()
+
+    def measures(self, run: Result) -> Measures:
+        """Numbers of the ideal machine, or impacts."""
+        return measures(run)
+
+    @cached_property
+    def known(self) -> list[int]:
+        """The impacts that the independent solution has, too."""
+        return [n for n in range(1, len(REFERENCE) + 1) if (f"onset_{n}_time", SMOOTH) in self.found]
+
+    def figures(self) -> dict[str, Figure]:
+        """Forces and paths."""
+        return {"slider_crank": figure(self.runs)}
+
+    def tables(self) -> dict[str, Sheet]:
+        """Impacts beside the independent solution."""
+        return {"table_agreement": agreement_table(self.found, self.known)}
+
+    def words(self) -> dict[str, object]:
+        """How far numbers are from those that are known."""
+        found = self.found
+        dry = [f"onset_{n}_time" for n in range(1, ONSETS + 1)]
+        return {
+            "run": sys.modules[__name__],
+            "case": scenarios()[SMOOTH],
+            "ideal": [found[name, IDEAL] for name in IDEAL_REFERENCE],
+            "times": [off(found[f"onset_{n}_time", SMOOTH]) for n in self.known],
+            "speeds": [off(found[f"onset_{n}_speed", SMOOTH]) for n in self.known],
+            "onsets": [found[name, DRY] for name in dry if (name, DRY) in found],
+        }

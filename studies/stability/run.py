@@ -16,11 +16,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from studies.common.numbers import Number
-from studies.common.options import Options
 from studies.common.panels import finish, grid
 from studies.common.paper_machine import clearance_rise
 from studies.common.runs import run_cases
-from studies.common.study import Study, StudyOutcome
+from studies.common.study import Study
 from studies.common.words import text_table
 from studies.stability.motions import (
     CASES,
@@ -179,32 +178,47 @@ def map_figure(maps: Mapping[str, PinOutlook]) -> Figure:
 # --- the study ---
 
 
-def work(chosen: Options) -> StudyOutcome:
-    """Every case predicted and run, and the whole stroke predicted."""
-    ready = {case.name: prepared(case) for case in CASES}
-    runs = run_cases(all_scenarios(ready), chosen)
-    found = [growth(one, runs) for one in ready.values()]
-    strokes = {
-        (pin, stiffness): whole_stroke(PinCase(pin, stiffness, 0.25))
-        for stiffness in STIFFNESSES
-        for pin in PINS
-    }
-    reported = [number for one in found for number in one.numbers()] + stroke_numbers(strokes)
-    words = {
-        "run": sys.modules[__name__],
-        "found": found,
-        "by_name": {one.case: one for one in found},
-        "strokes": strokes,
-        "numbers": {(one.name, one.case): one for one in reported},
-        "shaking": [pin for pin in PINS if any(not strokes[pin, name].outlook.stable for name in STIFFNESSES)],
-    }
-    drawings = {
-        "stability": answer_figure(found, ready[SHOWN.name], runs),
-        "map": map_figure({f"{pin}, {name}": strokes[pin, name].outlook for pin, name in MAPPED}),
-    }
-    tables = {"table_stroke": stroke_table(strokes)}
-    kept = {SHOWN.name: runs[run_name(SHOWN.name, 0, fine=True)]}
-    return StudyOutcome(reported, words, drawings, tables, kept)
+class Stability(Study):
+    """Can friction-induced vibration of a loaded pin be predicted without a simulation?"""
 
+    name, seconds = "stability", 25.0
 
-study = Study("stability", __doc__, work, seconds=25.0)
+    def work(self) -> None:
+        """Every case predicted and run, and the whole stroke predicted."""
+        self.ready = {case.name: prepared(case) for case in CASES}
+        self.runs = run_cases(all_scenarios(self.ready), self.chosen)
+        self.growths = [growth(one, self.runs) for one in self.ready.values()]
+        self.strokes = {
+            (pin, stiffness): whole_stroke(PinCase(pin, stiffness, 0.25))
+            for stiffness in STIFFNESSES
+            for pin in PINS
+        }
+        self.numbers = [number for one in self.growths for number in one.numbers()]
+        self.numbers += stroke_numbers(self.strokes)
+
+    def saved(self) -> dict[str, Result]:
+        """The run that is drawn."""
+        return {SHOWN.name: self.runs[run_name(SHOWN.name, 0, fine=True)]}
+
+    def figures(self) -> dict[str, Figure]:
+        """All figures."""
+        maps = {f"{pin}, {name}": self.strokes[pin, name].outlook for pin, name in MAPPED}
+        answer = answer_figure(self.growths, self.ready[SHOWN.name], self.runs)
+        return {"stability": answer, "map": map_figure(maps)}
+
+    def tables(self) -> dict[str, Sheet]:
+        """What is predicted."""
+        return {"table_stroke": stroke_table(self.strokes)}
+
+    def words(self) -> dict[str, object]:
+        """Growths and limits."""
+        strokes = self.strokes
+        return {
+            "run": sys.modules[__name__],
+            "growths": self.growths,
+            "by_name": {one.case: one for one in self.growths},
+            "strokes": strokes,
+            "shaking": [
+                pin for pin in PINS if any(not strokes[pin, name].outlook.stable for name in STIFFNESSES)
+            ],
+        }

@@ -6,20 +6,21 @@ the tip's position, to the forces and to the shaking in the rise.
 
 import sys
 from collections.abc import Callable, Mapping, Sequence
+from functools import cached_property
 from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
+from matplotlib.figure import Figure
 
-from studies.common.numbers import Found, Number, against, by_case, cell
-from studies.common.options import Options
-from studies.common.runs import run_with_errors
-from studies.common.study import Study, StudyOutcome
+from studies.common.numbers import Found, Number, against, cell
+from studies.common.study import Study
 from studies.common.words import text_table
 from studies.which_pin import cases
 from studies.which_pin.cases import ALIKE, FORCES, IDEAL, OVER_IDEAL, SHAKING, SHIFT, PinPlan
 from studies.which_pin.closed_form import UnderLoad, loads
 from studies.which_pin.figures import CLOSED_FORM, figures
+from support_exudyn import Result, Scenario
 from support_exudyn.machines.four_bar_shield import PINS
 from support_exudyn.postprocessing.page.pieces import Sheet
 
@@ -179,34 +180,53 @@ def key_table(plan: PinPlan, found: Found) -> Sheet:
 # --- the study ---
 
 
-def work(chosen: Options) -> StudyOutcome:
-    """The motion with clearance pins; of the paper's support also the closed form of where it stands."""
-    plan = PinPlan(chosen.subject)
-    results = run_with_errors(plan.scenarios, chosen)
-    under_loads = (
-        loads(plan.subject.clearance_pin(plan.subject.clearance_mm, 0.0)) if plan.subject.is_paper else {}
-    )
-    numbers = plan.numbers(results)
-    found = by_case(numbers)
-    conditions = condition_table(plan, found)
-    sheets = {
-        "which_pin": key_table(plan, found),
-        "table_together": together_table(plan, found),
-        **(closed_form_tables(found, under_loads) if plan.subject.is_paper else {}),
-        "table_conditions": conditions,
-    }
-    means = {name: under.means() for name, under in under_loads.items()}
-    words = {
-        "cases": cases,
-        "plan": plan,
-        "window": f"{plan.watched.window:g} s",
-        "tables": sys.modules[__name__],
-        "found": found,
-        "orders": {name: in_order(shifts) for name, shifts in means.items()},
-        "shifts": {name: sum(shifts.values()) for name, shifts in means.items()},
-        "rms_orders": [row for row in conditions.rows if row[0].startswith("rms")],
-    }
-    return StudyOutcome(numbers, words, figures(plan, found, under_loads), sheets, results)
+class WhichPin(Study):
+    """Which pin's clearance matters?"""
 
+    name, seconds, own_machine = "which_pin", 70.0, True
 
-study = Study("which_pin", __doc__, work, seconds=70.0, own_machine=True)
+    @cached_property
+    def plan(self) -> PinPlan:
+        """The cases of the machine."""
+        return PinPlan(self.subject)
+
+    @cached_property
+    def under_loads(self) -> Mapping[str, UnderLoad]:
+        """The closed form under other loads, of the paper's support."""
+        subject = self.subject
+        return loads(subject.clearance_pin(subject.clearance_mm, 0.0)) if subject.is_paper else {}
+
+    def cases(self) -> dict[str, Scenario]:
+        """The motion with clearance pins and with ideal ones."""
+        return self.plan.scenarios
+
+    def measure(self, runs: Mapping[str, Result]) -> list[Number]:
+        """Numbers of runs and closed form."""
+        return self.plan.numbers(runs)
+
+    def figures(self) -> dict[str, Figure]:
+        """All figures."""
+        return figures(self.plan, self.found, self.under_loads)
+
+    def tables(self) -> dict[str, Sheet]:
+        """All tables."""
+        return {
+            "which_pin": key_table(self.plan, self.found),
+            "table_together": together_table(self.plan, self.found),
+            **(closed_form_tables(self.found, self.under_loads) if self.subject.is_paper else {}),
+            "table_conditions": condition_table(self.plan, self.found),
+        }
+
+    def words(self) -> dict[str, object]:
+        """Orders, and sums of shifts."""
+        means = {name: under.means() for name, under in self.under_loads.items()}
+        conditions = condition_table(self.plan, self.found)
+        return {
+            "cases": cases,
+            "plan": self.plan,
+            "window": f"{self.plan.watched.window:g} s",
+            "tables": sys.modules[__name__],
+            "orders": {name: in_order(shifts) for name, shifts in means.items()},
+            "shifts": {name: sum(shifts.values()) for name, shifts in means.items()},
+            "rms_orders": [row for row in conditions.rows if row[0].startswith("rms")],
+        }

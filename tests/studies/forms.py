@@ -69,7 +69,7 @@ def written(
             patch.setattr(runs, "run_cases", partial(_once, coarser=COARSER.get(study, 1.0)))
             patch.setitem(style.STYLE, "savefig.dpi", 60)
         chosen = Options(folder, at_once(), kept, machines=machines)
-        STUDIES[study](replace(chosen, subject=subject) if subject else chosen)
+        STUDIES[study](replace(chosen, subject=subject) if subject else chosen).write()
     return folder
 
 

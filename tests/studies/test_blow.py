@@ -63,7 +63,7 @@ def test_a_law_that_wavers_between_pressure_and_tension_does_not_hold_up_a_blow(
 
 @pytest.mark.slow
 def test_the_small_form_makes_a_chapter(tmp_path: Path) -> None:
-    chapter = study.study(Options(out=tmp_path, workers=2, runs=1))
+    chapter = study.BlowStudy(Options(out=tmp_path, workers=2, runs=1)).write()
     assert isinstance(chapter, Chapter)
     assert (tmp_path / "peaks.png").is_file()
     assert not any(text.strip() == "" for text in (chapter.answer, *chapter.findings))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from contextlib import nullcontext
-from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
@@ -12,7 +11,7 @@ import pytest
 from studies import __main__ as all_studies
 from studies import report
 from studies.common.options import Options
-from studies.common.study import work_in_folder
+from studies.common.study import Study, work_in_folder
 from studies.common.words import Chapter
 from tests.hostile import posix_only
 from user_forces.values.value import InputError
@@ -43,23 +42,21 @@ def test_a_folder_that_cannot_be_made_is_said_before_the_work(
 def put_studies(monkeypatch: pytest.MonkeyPatch, work: Mapping[str, Callable[[Options], None]]) -> None:
     """Studies of the main command that only do this."""
 
-    @dataclass(frozen=True)
-    class OnlyWork:
-        name: str
-        work: Callable[[Options], None]
-        seconds: float = 1.0
-        own_machine: bool = False
-        question: str = "Why?"
+    def only(name: str, one: Callable[[Options], None]) -> type[Study]:
+        class OnlyWork(Study):
+            """Why?"""
 
-        def __call__(self, chosen: Options) -> Chapter:
-            self.work(chosen)
-            return Chapter(
-                study=self.name, title="Title", question="Why?", answer="So.",
-                **dict.fromkeys(("method", "findings", "pictures", "sheets"), ()),
-            )  # fmt: skip
+            def write(self) -> Chapter:
+                one(self.chosen)
+                return Chapter(
+                    study=name, title="Title", question="Why?", answer="So.",
+                    **dict.fromkeys(("method", "findings", "pictures", "sheets"), ()),
+                )  # fmt: skip
+
+        return OnlyWork
 
     monkeypatch.setattr(all_studies, "compiling", nullcontext)
-    monkeypatch.setattr(all_studies, "STUDIES", {name: OnlyWork(name, one) for name, one in work.items()})
+    monkeypatch.setattr(all_studies, "STUDIES", {name: only(name, one) for name, one in work.items()})
     monkeypatch.setattr(all_studies, "DEFAULT", tuple(work))
     monkeypatch.setattr(all_studies, "rebuild", lambda out: 0)
 

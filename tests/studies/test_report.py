@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 from html.parser import HTMLParser
 from pathlib import Path
@@ -66,6 +65,8 @@ def chapter(name: str, text: str = "A sentence.") -> Chapter:
         if leads
         else (),
         claims=claims if name == "claims" else (),
+        wall_s=12.345,
+        versions=versions(),
     )
 
 
@@ -80,8 +81,6 @@ def put(out: Path, content: Chapter) -> Path:
         (folder / f"{picture.stem}.csv").touch()
     (folder / "force one.pdf").touch()
     (folder / "key.csv").touch()
-    summary = {"study": content.study, "versions": versions(), "wall_s": 12.345, "numbers": []}
-    (folder / "summary.json").write_text(json.dumps(summary), encoding="utf-8")
     return folder
 
 
@@ -165,11 +164,11 @@ def test_templates_refer_to_figures_and_tables_that_they_name(study: str) -> Non
     folder = Path(report.__file__).parent
 
     def names(of: str) -> set[str]:
-        text = (folder / STUDIES[of].template).read_text(encoding="utf-8")
+        text = (folder / STUDIES[of].template()).read_text(encoding="utf-8")
         figures = re.findall(r"^- ([\w.-]+): ", text[text.index("\n## Figures") :], re.MULTILINE)
         return {NUMBERS, *figures, *re.findall(r"^### ([\w.-]+)$", text, re.MULTILINE)}
 
-    for reference in REFERENCE.findall((folder / STUDIES[study].template).read_text(encoding="utf-8")):
+    for reference in REFERENCE.findall((folder / STUDIES[study].template()).read_text(encoding="utf-8")):
         of, _, name = reference.rpartition("/")
         assert name in names(of or study), reference
 

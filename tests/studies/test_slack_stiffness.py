@@ -71,7 +71,7 @@ def test_pushed_faster_the_study_makes_a_chapter(tmp_path: Path, monkeypatch: py
     monkeypatch.setattr(
         PushedSupport, "time", lambda case, quarters: study.BEGIN + 0.1 * quarters * case.quarter
     )
-    chapter = study.study(Options(out=tmp_path, workers=2))
+    chapter = study.SlackStiffness(Options(out=tmp_path, workers=2)).write()
     assert isinstance(chapter, Chapter)
     assert (tmp_path / "loops.png").is_file()
     assert not any(text.strip() == "" for text in (chapter.answer, *chapter.findings))

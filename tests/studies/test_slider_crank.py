@@ -25,7 +25,7 @@ def numbers(tmp_path_factory: pytest.TempPathFactory) -> Numbers:
         whole = study.scenarios()
         part = {name: replace(case, duration=case.duration / 9.0) for name, case in whole.items()}  # 1.33 ms
         patch.setattr(study, "scenarios", lambda: part)
-        study.study(Options(out, at_once()))
+        study.SliderCrank(Options(out, at_once())).write()
     assert (out / "slider_crank.png").read_bytes().startswith(b"\x89PNG")
     assert "onset 5 speed" in Path(out / "numbers.csv").read_text(encoding="utf-8")
     with style.look():

@@ -104,7 +104,7 @@ def test_drawn_scenes_grow_as_predicted(seed: int) -> None:
 
 @pytest.mark.slow
 def test_the_whole_study(tmp_path: Path) -> None:
-    chapter = study.study(Options(tmp_path, workers=2))
+    chapter = study.Stability(Options(tmp_path, workers=2)).write()
     assert isinstance(chapter, Chapter)
     assert chapter.answer.startswith("Yes: in 48 cases")
     summary = json.loads((tmp_path / "summary.json").read_text("utf-8"))

@@ -14,7 +14,6 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from studies.__main__ import app
 from studies.common import rise
 from studies.common import runs as runs_module
 from studies.common.numbers import (
@@ -25,9 +24,10 @@ from studies.common.numbers import (
     measured,
     rounded,
 )
-from studies.common.options import Options, OptionWords
+from studies.common.options import Options
 from studies.common.rise import Series
 from studies.common.runs import halvings, run_cases, run_with_errors
+from studies.common.subject import chosen_subject, own_subject
 from support_exudyn import CubicStep, IdealPin, Result, Scenario, Steady, ravn_slider_crank
 from support_exudyn.files import save_scenario
 from tests.cases.run_cases import loose_support
@@ -99,21 +99,13 @@ def test_the_error_of_records_covers_what_lies_between_them() -> None:
     assert np.mean(np.array(shares) <= 1.0) >= 0.95
 
 
-# --- options ---
-
-
-def read(*words: str) -> Options:
-    _, bound, _ = app.parse_args(words)
-    return bound.arguments.get("words", OptionWords()).options()
-
-
 # --- one's own machine ---
 
 
 def test_a_scenario_of_ones_own_keeps_all_but_the_clearance_and_the_friction(tmp_path: Path) -> None:
     mine = loose_support(duration=2.0, drive=CubicStep(start=0.5, end=1.5, stroke=0.2))
     path = save_scenario(mine, tmp_path / "my_support.toml")
-    subject = read("--machine", str(path)).subject
+    subject = own_subject(path)
     (pin,) = mine.pins
     assert (subject.pin, subject.name, subject.is_paper) == (pin, "my support", False)
     assert (subject.watched.start, subject.watched.end) == (0.5, 1.5)
@@ -138,7 +130,7 @@ def test_a_pin_of_ones_own_machine_has_the_bore_of_its_file(form: str, tmp_path:
         path = tmp_path / "run.toml"
         pin = "[pins.rear_base]\nclearance_mm = 1.5\n" if form.endswith("pin") else ""
         path.write_text('machine = "mine.toml"\nduration_s = 5\ndrive = { mode = 2 }\n' + pin, encoding="utf-8")
-    subject = read("--machine", "zf18000" if form == "name" else str(path), "--pin", "rear_base").subject
+    subject = own_subject(Path("zf18000") if form == "name" else path, "rear_base")
     contact = subject.with_clearance(1.5, 0.25).pins["rear_base"].contact  # type: ignore[attr-defined]
     assert contact.bearing.bore_radius == pytest.approx(0.1008)
     assert contact.normal.length == 1.077  # of its file, too
@@ -156,15 +148,15 @@ def test_a_bore_that_is_said_nowhere_is_asked_for(tmp_path: Path) -> None:
     with pytest.raises(
         InputError, match=r"mine\.toml: rear_base: the radius of its bore is missing; allowed: "
     ):
-        read("--machine", str(tmp_path / "mine.toml"), "--pin", "rear_base")
+        own_subject(tmp_path / "mine.toml", "rear_base")
 
 
 def test_a_pin_that_the_machine_does_not_have_is_refused(tmp_path: Path) -> None:
     shutil.copy(MACHINES / "zf18000.toml", tmp_path / "mine.toml")
     with pytest.raises(InputError, match=r"mine\.toml: --pin 'middle': no such pin; allowed: .*rear_base"):
-        read("--machine", str(tmp_path / "mine.toml"), "--pin", "middle")
+        own_subject(tmp_path / "mine.toml", "middle")
     with pytest.raises(InputError, match="--pin rear_base: allowed: together with --machine FILE"):
-        read("--pin", "rear_base")
+        chosen_subject(None, "rear_base")
 
 
 # --- kept runs ---

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from studies.common.options import Options
-from studies.drive_mode.valves import PINS, PUMP, PUMPS, START, case_name, scenarios, study
+from studies.drive_mode.valves import PINS, PUMP, PUMPS, START, ValveModes, case_name, scenarios
 from support_exudyn import Result, simulate
 
 
@@ -50,7 +50,7 @@ def test_the_pump_gives_no_more_than_it_can_and_its_oil_adds_up() -> None:
 
 @pytest.mark.slow
 def test_the_study_runs_and_finds_that_oil_boils(tmp_path: Path) -> None:
-    answer = study(Options(tmp_path)).answer
+    answer = ValveModes(Options(tmp_path)).write().answer
     assert "the oil boils" in answer
     assert "Along a ramp nothing boils" in answer
     assert all((tmp_path / f"{name}.png").stat().st_size > 10_000 for name in ("rise_by_valves", "opening"))
