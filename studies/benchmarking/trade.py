@@ -25,8 +25,7 @@ from studies.benchmarking.peers.in_scipy import run_lsoda
 from studies.benchmarking.peers.on_exudyn import run_stock
 from studies.common import paper_machine
 from studies.common.numbers import Number
-from studies.common.options import Options
-from studies.common.study import Study, StudyOutcome, print_table, work_in_folder
+from studies.common.study import Study, print_table, work_in_folder
 from support_exudyn import Estimate, Scenario, SolverSettings, simulate
 from support_exudyn.commands.command_line import say, warn
 from support_exudyn.files.whole_file import whole_file
@@ -291,31 +290,41 @@ def table(points: Sequence[TradePoint]) -> Sheet:
 # --- the study ---
 
 
-def work(chosen: Options) -> StudyOutcome:
-    """Measure the programs one after another, for they are timed; no run is kept."""
-    del chosen
-    points = list(measured())
-    sheet, exact = table(points), exact_force()
-    name = "relative error of the largest pin force"
-    numbers = [Number("largest pin force", "reference", exact.value, "N", exact.error)]
-    numbers += [
-        Number(name, f"{point.program}, {point.setting}", point.error, "1", exact.error / exact.value)
-        for point in points
-    ]
-    words = {
-        "exact": exact,
-        "good": GOOD,
-        "work": WORK,
-        "best": {name: cheapest(points, name) for name in dict.fromkeys(point.program for point in points)},
-        "headline": (OURS_COMPILED + ONCE, STOCK),
-        "presets": [point for point in points if point.program in (OURS_COMPILED, OURS_ENGINE)],
-        "caption": CAPTION,
-        "table_caption": sheet.caption,
-    }
-    return StudyOutcome(numbers, words, {FIGURE: figure(points)}, {"settings": sheet})
+class SpeedAccuracy(Study):
+    """What does a number cost: the error of a pin force over processor time, by this program and by others."""
 
+    name, seconds = "speed_accuracy", 120.0
 
-study = Study("speed_accuracy", __doc__, work, seconds=120.0, sentences="benchmarking/words.md.j2")
+    def work(self) -> None:
+        """Measure the programs one after another, for they are timed; no run is kept."""
+        self.points, exact = list(measured()), exact_force()
+        name = "relative error of the largest pin force"
+        self.numbers = [Number("largest pin force", "reference", exact.value, "N", exact.error)] + [
+            Number(name, f"{point.program}, {point.setting}", point.error, "1", exact.error / exact.value)
+            for point in self.points
+        ]
+
+    def figures(self) -> dict[str, Figure]:
+        """Errors over processor time."""
+        return {FIGURE: figure(self.points)}
+
+    def tables(self) -> dict[str, Sheet]:
+        """All settings."""
+        return {"settings": table(self.points)}
+
+    def words(self) -> dict[str, object]:
+        """The cheapest settings, and captions."""
+        points = self.points
+        return {
+            "exact": exact_force(),
+            "good": GOOD,
+            "work": WORK,
+            "best": {name: cheapest(points, name) for name in dict.fromkeys(point.program for point in points)},
+            "headline": (OURS_COMPILED + ONCE, STOCK),
+            "presets": [point for point in points if point.program in (OURS_COMPILED, OURS_ENGINE)],
+            "caption": CAPTION,
+            "table_caption": table(points).caption,
+        }
 
 
 def benchmark(*, out: Path = HERE) -> int:

@@ -7,6 +7,8 @@ times.
 
 from collections.abc import Sequence
 
+from matplotlib.figure import Figure
+
 from studies.claims.claim_list import CLAIMS, unit
 from studies.claims.figures import figures
 from studies.claims.plausible import CONTACT, FACTORS, LOT, REFERENCE, Choice, samples
@@ -25,7 +27,7 @@ from studies.common.numbers import Number
 from studies.common.options import Options
 from studies.common.paper_machine import CYLINDERS
 from studies.common.runs import bar
-from studies.common.study import Study, StudyOutcome
+from studies.common.study import Study
 from studies.common.words import JudgedClaim, text_table
 from support_exudyn.postprocessing.page.pieces import Sheet
 from user_forces.values.value import InputError
@@ -199,39 +201,55 @@ def why(ruling: Ruling, numbers: dict[str, int]) -> str:
     return "".join(f"{part}. " for part in parts).rstrip()
 
 
-def work(chosen: Options) -> StudyOutcome:
-    """The machines of both hypercubes and the reference support, and the verdicts on all statements."""
-    rows, rulings = draw(chosen)
-    first, second = hypercubes(rows)
-    numbered, apart = list(enumerate(rulings, 1)), independent(rulings)
-    places = {ruling.claim.name: n for n, ruling in numbered}
-    words = {
-        "first": len(first),
-        "second": len(second),
-        "failed": sum(row.measures is None for row in rows),
-        "cases": len(CASES),
-        "tolerance": TOLERANCE,
-        "statements": len(rulings),
-        "kinds": {kind: [n for n, ruling in numbered if ruling.kind == kind] for kind in KINDS},
-        "independent": len(apart),
-        "independent_holds": sum(ruling.kind == KINDS[0] for ruling in apart),
-        "repeated": [n for n, r in numbered if r.claim.follows_from],
-        "undecided": [n for n, r in numbered if r.kind == NOT_MEASURABLE and r.claim.is_measurable],
-        "hanging": [n for n, ruling in numbered if ruling.hangs],
-        "differs": [n for n, ruling in numbered if ruling.differs],
-        "messages": {
-            kind: [r.claim.name for r in rulings if r.claim.is_message and r.kind == kind] for kind in KINDS
-        },
-        "named": {r.claim.name: str(r.first) for r in rulings if r.claim.name},
-    }
-    claims = [
-        JudgedClaim(
-            str(n), r.claim.where, r.claim.text, r.kind, why(r, places), r.claim.figure, r.claim.shown_in
-        )
-        for n, r in numbered
-    ]
-    drawings = figures(rulings, evidence(rows[0].measures or {}), first, second)
-    return StudyOutcome(measure(rulings, rows), words, drawings, tables(rulings, rows), claims=claims)
+class Claims(Study):
+    """What is each of the paper's claims worth on machines that have all that the paper prints?"""
 
+    name, seconds = "claims", 70.0
 
-study = Study("claims", __doc__, work, seconds=70.0)
+    def work(self) -> None:
+        """The machines of both hypercubes and the reference support, and the verdicts on all statements."""
+        self.rows, self.rulings = draw(self.chosen)
+        self.hypercubes = hypercubes(self.rows)
+        self.numbers = measure(self.rulings, self.rows)
+
+    def figures(self) -> dict[str, Figure]:
+        """All figures."""
+        return figures(self.rulings, evidence(self.rows[0].measures or {}), *self.hypercubes)
+
+    def tables(self) -> dict[str, Sheet]:
+        """All tables."""
+        return tables(self.rulings, self.rows)
+
+    def claims(self) -> list[JudgedClaim]:
+        """Every statement with its verdict."""
+        places = {ruling.claim.name: n for n, ruling in enumerate(self.rulings, 1)}
+        return [
+            JudgedClaim(
+                str(n), r.claim.where, r.claim.text, r.kind, why(r, places), r.claim.figure, r.claim.shown_in
+            )
+            for n, r in enumerate(self.rulings, 1)
+        ]
+
+    def words(self) -> dict[str, object]:
+        """Counts and numbers of statements by their verdicts."""
+        rulings, (first, second) = self.rulings, self.hypercubes
+        numbered, apart = list(enumerate(rulings, 1)), independent(rulings)
+        return {
+            "first": len(first),
+            "second": len(second),
+            "failed": sum(row.measures is None for row in self.rows),
+            "cases": len(CASES),
+            "tolerance": TOLERANCE,
+            "statements": len(rulings),
+            "kinds": {kind: [n for n, ruling in numbered if ruling.kind == kind] for kind in KINDS},
+            "independent": len(apart),
+            "independent_holds": sum(ruling.kind == KINDS[0] for ruling in apart),
+            "repeated": [n for n, r in numbered if r.claim.follows_from],
+            "undecided": [n for n, r in numbered if r.kind == NOT_MEASURABLE and r.claim.is_measurable],
+            "hanging": [n for n, ruling in numbered if ruling.hangs],
+            "differs": [n for n, ruling in numbered if ruling.differs],
+            "messages": {
+                kind: [r.claim.name for r in rulings if r.claim.is_message and r.kind == kind] for kind in KINDS
+            },
+            "named": {r.claim.name: str(r.first) for r in rulings if r.claim.name},
+        }

@@ -8,12 +8,14 @@ is damped.
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from typing import ClassVar
+
+from matplotlib.figure import Figure
 
 from studies.common.numbers import Found, Measures, Number, by_case, cell, counted, measured_all
-from studies.common.options import Options
 from studies.common.rise import Watched
 from studies.common.runs import run_cases, run_with_errors
-from studies.common.study import Study, StudyOutcome
+from studies.common.study import Study
 from studies.common.words import text_table
 from studies.contact_laws import cases, catalogue
 from studies.contact_laws.cases import (
@@ -106,40 +108,62 @@ def rest_table(watched: Watched, results: Mapping[str, Result], numbers: Sequenc
 # --- the study ---
 
 
-def work(chosen: Options) -> StudyOutcome:
-    """Free impacts, and the motion under every law."""
-    subject = chosen.subject
-    ideal = run_cases({"ideal": subject.ideal()}, chosen)["ideal"]
-    joint = Joint(subject, subject.watched.mean(ideal, ideal[subject.watched.force]))
-    laws = cases.impact_laws()
-    impacts = {case: cases.free_impact(law, SPEED, IMPACT_STEPS) for case, (law, _) in laws.items()}
-    loops = {name: cases.free_impact(law, SPEED, 128, records=800) for name, law in cases.loop_laws().items()}
-    made_anew = replace(chosen, kept=None)  # sooner than read: each takes a twentieth of a second
-    struck, looped = run_with_errors(impacts, made_anew), run_cases(loops, made_anew)
-    risen = run_with_errors(joint.runs, chosen)
-    rubbed = run_with_errors({f"{name}{RUBBING}": case for name, case in joint.rubbing.items()}, chosen)
-    resting = run_with_errors(joint.resting, chosen)
-    restitutions = restitution_numbers(struck, {case: expected for case, (_, expected) in laws.items()})
-    numbers, with_friction, rested = (rise_numbers(subject.watched, one) for one in (risen, rubbed, resting))
-    found = by_case([*restitutions, *numbers])
-    drawings = {
-        "laws_at_a_glance": answer_figure(found),
-        "force_depth_loops": loop_figure(looped),
-        "rise_under_each_law": rise_figure(subject.watched, numbers),
-        "permanent_contact": permanent_figure(subject.watched, resting),
-    }
-    tables = {"laws": key_table(found), "rest_table": rest_table(subject.watched, resting, rested)}
-    words = _words(found, [*risen]) | {
-        "joint": joint,
-        "pin_length": joint.length or catalogue.pin_length(joint.pin.contact.bearing.bore_radius),
-        "bore_radius": joint.pin.contact.bearing.bore_radius,
-        "rubbing": _spreads(by_case(with_friction), [f"{name}{RUBBING}" for name in POWER_LAWS]),
-        "rested": by_case(rested),
-        "at_steps": {name: case for name, case in joint.runs.items() if case.accuracy is None},
-        "goal": ideal.goal,
-    }
-    every = [*restitutions, *numbers, *with_friction, *rested]
-    return StudyOutcome(every, words, drawings, tables, risen | resting, live={"permanent_contact": (0, 1)})
+class ContactLaws(Study):
+    """What do contact laws deliver, and what does the choice of a law change in the motion?"""
+
+    name, seconds, own_machine = "contact_laws", 30.0, True
+    live: ClassVar = {"permanent_contact": (0, 1)}
+
+    def work(self) -> None:
+        """Free impacts, and the motion under every law."""
+        subject, chosen = self.subject, self.chosen
+        self.ideal = run_cases({"ideal": subject.ideal()}, chosen)["ideal"]
+        self.joint = joint = Joint(subject, subject.watched.mean(self.ideal, self.ideal[subject.watched.force]))
+        laws = cases.impact_laws()
+        impacts = {case: cases.free_impact(law, SPEED, IMPACT_STEPS) for case, (law, _) in laws.items()}
+        loops = {
+            name: cases.free_impact(law, SPEED, 128, records=800) for name, law in cases.loop_laws().items()
+        }
+        made_anew = replace(chosen, kept=None)  # sooner than read: each takes a twentieth of a second
+        struck, self.looped = run_with_errors(impacts, made_anew), run_cases(loops, made_anew)
+        self.risen = run_with_errors(joint.runs, chosen)
+        rubbed = run_with_errors({f"{name}{RUBBING}": case for name, case in joint.rubbing.items()}, chosen)
+        self.resting = run_with_errors(joint.resting, chosen)
+        restitutions = restitution_numbers(struck, {case: expected for case, (_, expected) in laws.items()})
+        self.in_rise, self.with_friction, self.rested = (
+            rise_numbers(subject.watched, one) for one in (self.risen, rubbed, self.resting)
+        )
+        self.runs = self.risen | self.resting
+        self.numbers = [*restitutions, *self.in_rise, *self.with_friction, *self.rested]
+        self.of_laws = by_case([*restitutions, *self.in_rise])
+
+    def figures(self) -> dict[str, Figure]:
+        """All figures."""
+        watched = self.subject.watched
+        return {
+            "laws_at_a_glance": answer_figure(self.of_laws),
+            "force_depth_loops": loop_figure(self.looped),
+            "rise_under_each_law": rise_figure(watched, self.in_rise),
+            "permanent_contact": permanent_figure(watched, self.resting),
+        }
+
+    def tables(self) -> dict[str, Sheet]:
+        """All tables."""
+        rest = rest_table(self.subject.watched, self.resting, self.rested)
+        return {"laws": key_table(self.of_laws), "rest_table": rest}
+
+    def words(self) -> dict[str, object]:
+        """What is said of impacts and motions under each law."""
+        joint = self.joint
+        return _words(self.of_laws, [*self.risen]) | {
+            "joint": joint,
+            "pin_length": joint.length or catalogue.pin_length(joint.pin.contact.bearing.bore_radius),
+            "bore_radius": joint.pin.contact.bearing.bore_radius,
+            "rubbing": _spreads(by_case(self.with_friction), [f"{name}{RUBBING}" for name in POWER_LAWS]),
+            "rested": by_case(self.rested),
+            "at_steps": {name: case for name, case in joint.runs.items() if case.accuracy is None},
+            "goal": self.ideal.goal,
+        }
 
 
 def _words(found: Found, risen: Sequence[str]) -> dict[str, object]:
@@ -174,6 +198,3 @@ def _spreads(found: Found, cases_of: Sequence[str]) -> dict[str, float]:
     """By what share the largest of some cases exceeds the smallest: mean pin force and standard deviation."""
     rows = {name: [found[name, case].value for case in cases_of] for name in (MEAN, STD)}
     return {name: max(values) / min(values) - 1.0 for name, values in rows.items()}
-
-
-study = Study("contact_laws", __doc__, work, seconds=30.0, own_machine=True)

@@ -12,10 +12,10 @@ from types import SimpleNamespace
 from typing import NamedTuple
 
 import numpy as np
+from matplotlib.figure import Figure
 
 from studies.common.numbers import Number
-from studies.common.options import Options
-from studies.common.study import Study, StudyOutcome
+from studies.common.study import Study
 from studies.common.words import text_table
 from studies.extremes import long_runs
 from studies.extremes.drawn import SPANS
@@ -206,15 +206,34 @@ def _long_row(name: str, run: LongRun | str) -> tuple[str, ...]:
 # --- the study ---
 
 
-def work(chosen: Options) -> StudyOutcome:
-    """All scenes and long runs, judged."""
-    drawn = cases(chosen.runs or DRAWN)
-    long = run_long(long_runs.DURATIONS, chosen.workers)
-    verdicts = judge_all(drawn, chosen.workers)
-    judged = list(zip(drawn, verdicts, strict=True))
-    counts = {f"runs_{outcome}": number for outcome, number in ended(verdicts).items()}
-    words = words_of(judged, long) | {"counts": counts}
-    return StudyOutcome(numbers(judged, long), words, figures(judged), tables(judged, long), counts=counts)
+class Extremes(Study):
+    """Where does the model break, and does it say so?"""
+
+    name, seconds = "extremes", 660.0
+
+    def work(self) -> None:
+        """All scenes and long runs, judged."""
+        drawn = cases(self.chosen.runs or DRAWN)
+        self.long = run_long(long_runs.DURATIONS, self.chosen.workers)
+        self.judged = list(zip(drawn, judge_all(drawn, self.chosen.workers), strict=True))
+        self.numbers = numbers(self.judged, self.long)
+
+    def figures(self) -> dict[str, Figure]:
+        """All figures."""
+        return figures(self.judged)
+
+    def tables(self) -> dict[str, Sheet]:
+        """All tables."""
+        return tables(self.judged, self.long)
+
+    def counts(self) -> dict[str, int]:
+        """How many runs ended how."""
+        verdicts = [verdict for _, verdict in self.judged]
+        return {f"runs_{outcome}": number for outcome, number in ended(verdicts).items()}
+
+    def words(self) -> dict[str, object]:
+        """What the sentences are filled with."""
+        return words_of(self.judged, self.long) | {"counts": self.counts()}
 
 
 def words_of(judged: Judged, long: Long) -> dict[str, object]:
@@ -247,6 +266,3 @@ def _of_map(here: Sequence[Judgement]) -> dict[str, float]:
     """How the runs of a map ended, and the errors of its good ones."""
     errors = [verdict.error for verdict in here if verdict.outcome == GOOD]
     return {**ended(here), "runs": len(here), "median": float(np.median(errors)), "worst": largest(errors)}
-
-
-study = Study("extremes", __doc__, work, seconds=660.0)

@@ -12,10 +12,9 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from matplotlib.figure import Figure
 
-from studies.common.options import Options
 from studies.common.panels import finish
 from studies.common.runs import run_cases
-from studies.common.study import Study, StudyOutcome
+from studies.common.study import Study
 from studies.common.words import text_table
 from studies.outside.sources import SCENES, ComparedNumber, OutsideCase, cases, compared, hinge
 from support_exudyn import Result
@@ -115,29 +114,44 @@ def figure(found: Sequence[tuple[OutsideCase, Sequence[ComparedNumber]]], runs: 
     return finish(drawing, [all_numbers, four_bar, limit])
 
 
-def work(chosen: Options) -> StudyOutcome:
-    """All cases, each beside its source."""
-    scenes = {name: scene() for name, scene in SCENES.items()}
-    # the longest first, so that no process is left alone with a long run at the end
-    order = sorted(scenes, key=lambda name: name != "loose_crank_rocker")
-    wanted = {name + FINE: scenes[name].refined() for name in order} | {name: scenes[name] for name in order}
-    runs = run_cases(wanted, chosen)
-    found = []
-    for name, case in cases().items():
-        if name in COMPUTED:
-            found.append((case, COMPUTED[name](runs)))
-        else:
-            found.append((case, compared(case, runs[case.scene + FINE], runs[case.scene])))
-    rows = [one for _, numbers in found for one in numbers]
-    words = {
-        "run": sys.modules[__name__],
-        "cases": found,
-        "of": {case.name: compared_numbers for case, compared_numbers in found},
-        "rows": rows,
-        "orders": [one.ours for one in rows if one.what.startswith("order")],
-    }
-    tables = {"table_cases": case_table(found)}
-    return StudyOutcome([one.number() for one in rows], words, {"outside": figure(found, runs)}, tables)
+class Outside(Study):
+    """Does the program agree with published cases and with foreign programs?"""
 
+    name, seconds = "outside", 100.0
 
-study = Study("outside", __doc__, work, seconds=100.0)
+    def work(self) -> None:
+        """All cases, each beside its source."""
+        scenes = {name: scene() for name, scene in SCENES.items()}
+        # the longest first, so that no process is left alone with a long run at the end
+        order = sorted(scenes, key=lambda name: name != "loose_crank_rocker")
+        wanted = {name + FINE: scenes[name].refined() for name in order} | {
+            name: scenes[name] for name in order
+        }
+        self.all_runs = run_cases(wanted, self.chosen)
+        self.compared: list[tuple[OutsideCase, Sequence[ComparedNumber]]] = []
+        for name, case in cases().items():
+            if name in COMPUTED:
+                self.compared.append((case, COMPUTED[name](self.all_runs)))
+            else:
+                fine, coarse = (self.all_runs[case.scene + end] for end in (FINE, ""))
+                self.compared.append((case, compared(case, fine, coarse)))
+        self.rows = [one for _, numbers in self.compared for one in numbers]
+        self.numbers = [one.number() for one in self.rows]
+
+    def figures(self) -> dict[str, Figure]:
+        """How far off every number is."""
+        return {"outside": figure(self.compared, self.all_runs)}
+
+    def tables(self) -> dict[str, Sheet]:
+        """A row a case."""
+        return {"table_cases": case_table(self.compared)}
+
+    def words(self) -> dict[str, object]:
+        """Cases with their numbers."""
+        return {
+            "run": sys.modules[__name__],
+            "cases": self.compared,
+            "of": {case.name: compared_numbers for case, compared_numbers in self.compared},
+            "rows": self.rows,
+            "orders": [one.ours for one in self.rows if one.what.startswith("order")],
+        }

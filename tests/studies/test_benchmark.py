@@ -109,7 +109,7 @@ def test_the_study_and_the_command_write_table_and_figure(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(trade, "measured", lambda with_slow=False: iter(POINTS))
-    chapter = trade.study(Options(tmp_path, at_once()))
+    chapter = trade.SpeedAccuracy(Options(tmp_path, at_once())).write()
     assert [picture.stem for picture in chapter.pictures] == [trade.FIGURE]
     assert "takes 50 ms compiled" in chapter.answer
     numbers = json.loads((tmp_path / "summary.json").read_text("utf-8"))["numbers"]

@@ -354,7 +354,7 @@ def out(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(extremes, "cases", given)
         patch.setattr(long_runs, "DURATIONS", dict.fromkeys(LASTING, SHORT))
-        extremes.study(Options(folder, at_once(), runs=5))
+        extremes.Extremes(Options(folder, at_once(), runs=5)).write()
     assert drawn == [5]
     return folder
 
