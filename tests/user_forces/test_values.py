@@ -125,7 +125,10 @@ def test_what_is_wrong_is_named_with_its_place(kind: type[Any], fields: dict[str
     ("data", "said"),
     [
         *((data, "not a known type") for data in ({"type": ["a"]}, [1], {}, "text", {"radius": 1.0})),
-        ({"type": "Cube", "radius": 1.0}, r"type = 'Cube': not a known type; .*did you mean 'CubicStep'"),
+        (
+            {"type": "CubcStep", "radius": 1.0},
+            r"type = 'CubcStep': not a known type; .*did you mean 'CubicStep'",
+        ),
         ({"type": Drive.__name__}, "not a known type"),
         (
             {"type": "JournalBearing", "bore_radius": 1.0, "clearance": -1.0},
