@@ -16,12 +16,10 @@ from typing import Any
 
 import numpy as np
 
-from support_exudyn.files.free_memory import available
 from support_exudyn.files.series.columns import Column, Numbers, series_file
 from support_exudyn.files.series.named_series import Asked, SeriesFile
 from support_exudyn.files.series.table_layout import TableLayout
 from support_exudyn.files.series.text_tables import columns_of, lines_of
-from support_exudyn.files.whole_file import contents
 from user_forces.values.value import InputError
 
 BINARY = b"EXUBIN"
@@ -112,7 +110,7 @@ def read_exudyn_binary(path: Path, asked: Asked) -> SeriesFile:
 
     Raises InputError if it is damaged, with the byte; OSError if it cannot be read.
     """
-    data = contents(path, available() // 4)
+    data = path.read_bytes()
     place = 0
     try:
         reading = _Binary(data)

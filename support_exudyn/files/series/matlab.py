@@ -23,11 +23,9 @@ from typing import Any
 import h5py
 import numpy as np
 
-from support_exudyn.files.free_memory import available
 from support_exudyn.files.series.columns import Column, Group, Numbers, first_names, named_times, series_file
 from support_exudyn.files.series.named_series import Asked, SeriesFile
 from support_exudyn.files.series.units import read_unit, split_title
-from support_exudyn.files.whole_file import contents
 from user_forces.values.value import InputError, cleaned
 
 MAGIC, MAGIC_HDF5 = b"MATLAB 5.0 MAT-file", b"MATLAB 7.3 MAT-file"
@@ -69,7 +67,7 @@ def read_matlab(path: Path, asked: Asked) -> SeriesFile:
 
     Raises InputError if it is damaged, or has no vector of times; OSError if it cannot be read.
     """
-    data = contents(path, available() // 4)
+    data = path.read_bytes()
     try:
         tree = _of_hdf5(data) if data.startswith(MAGIC_HDF5) else _of_scipy(data)
         if tree.keys() >= MODELICA:

@@ -9,11 +9,9 @@ from pathlib import Path
 
 import h5py
 
-from support_exudyn.files.free_memory import available
 from support_exudyn.files.hdf5 import HDF5, check_checksum, series_in
 from support_exudyn.files.series.columns import Column, series_file
 from support_exudyn.files.series.named_series import Asked, SeriesFile
-from support_exudyn.files.whole_file import contents
 from user_forces.values.value import InputError, cleaned
 
 RUN = "support_exudyn result 6"  # what the file of a run begins with
@@ -42,7 +40,7 @@ def read_own_file(path: Path, asked: Asked) -> SeriesFile:
 
     Raises InputError if the file is not a whole one, or was changed; OSError if it cannot be read.
     """
-    data = contents(path, available() // 4)
+    data = path.read_bytes()
     kind, writer = "run of this program", "`run` writes"
     if not is_run(data):
         kind, writer = "HDF5 file of channels", "`export --to hdf5` writes"

@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from support_exudyn.files.free_memory import available
 from support_exudyn.files.series.columns import Column, Numbers, Table, table_series
 from support_exudyn.files.series.named_series import Asked, SeriesFile
 from support_exudyn.files.series.stamps import read_stamps
@@ -30,7 +29,6 @@ from support_exudyn.files.series.table_layout import (
     kind_of,
     layout,
 )
-from support_exudyn.files.whole_file import contents
 from user_forces.values.value import InputError, short
 
 if TYPE_CHECKING:
@@ -39,7 +37,6 @@ if TYPE_CHECKING:
 NULLS = sorted({one for word in MISSING for one in (word, word.upper(), word.capitalize(), "NaN", "N/a")})
 HEAD = 60  # lines that may have titles
 FOOT = 60  # lines that may stand below the rows
-SHARE = 40  # of the memory that is free, one part is for the file; short lines take many times themselves
 UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 CHINESE = re.compile(rb"(?:[\xa1-\xf7][\xa1-\xfe])+")
 COMMON = re.compile(rb"[\xa1-\xa9\xb0-\xd7][\xa1-\xfe]")  # signs and the usual 3755 characters of GB 2312
@@ -196,9 +193,9 @@ def _numbers(column: pd.Series, decimal: str) -> tuple[Numbers, int | None]:
 def lines_of(path: Path) -> tuple[list[str], list[str]]:
     """The lines of a text, and notes on it.
 
-    Raises InputError for what is no text, or more than fits into memory; OSError if it cannot be read.
+    Raises InputError for what is no text; OSError if it cannot be read.
     """
-    data, notes = contents(path, available() // SHARE), []
+    data, notes = path.read_bytes(), []
     encoding = "utf-16" if data.startswith(UTF_16) else "utf-8-sig"
     if encoding != "utf-16" and b"\0" in data:
         raise InputError(f"{path}: byte {data.index(0)} is 0, which no text has; allowed: {ALLOWED}")

@@ -16,14 +16,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from support_exudyn.files.free_memory import available
 from support_exudyn.files.series.columns import Column, Table, first_names, table_series
 from support_exudyn.files.series.named_series import Asked, SeriesFile
 from support_exudyn.files.series.stamps import DAY, Stamps, is_stamp, read_stamps
 from support_exudyn.files.series.table_layout import is_time_title
 from support_exudyn.files.series.text_tables import text_table
 from support_exudyn.files.series.units import read_unit, split_title
-from support_exudyn.files.whole_file import contents
 from user_forces.values.value import InputError, cleaned, short
 
 if TYPE_CHECKING:
@@ -40,10 +38,9 @@ CHECKED = 400  # items by which words are stamps
 def read_typed_table(path: Path, asked: Asked) -> SeriesFile:
     """The series of a Parquet, Feather or JSON file: its columns of numbers; others are named in a note.
 
-    Raises InputError if it is damaged, has no times or more than fits into memory; OSError if it cannot be
-    read.
+    Raises InputError if it is damaged or has no times; OSError if it cannot be read.
     """
-    data = contents(path, available() // 4)
+    data = path.read_bytes()
     kind = KINDS.get(data[:4], "JSON file")
     try:
         if kind == "JSON file":
@@ -68,9 +65,6 @@ def _of_arrow(path: Path, kind: str, data: bytes, asked: Asked) -> Table:
         table = feather.read_table(BufferReader(data))
     else:
         file = parquet.ParquetFile(BufferReader(data))
-        rows, count = file.metadata.num_rows, file.metadata.num_columns
-        if 24 * rows * (len(asked.names) or count) > available():
-            raise InputError(f"{path}: has {rows} rows of {count} columns; allowed: as many as fit into memory")
         wanted = [
             one.name
             for one in file.schema_arrow
@@ -151,7 +145,7 @@ def read_workbook(path: Path, asked: Asked) -> SeriesFile:
     """
     import pandas as pd
 
-    data = io.BytesIO(contents(path, available() // 12))
+    data = io.BytesIO(path.read_bytes())
     try:
         sheets = pd.read_excel(data, sheet_name=None, header=None, dtype="object", engine="openpyxl")
     except ImportError:
