@@ -146,6 +146,7 @@ drive = {type = "CubicStep", start_s = 0, end_s = 1}
 drive = {type = "Steady", rate_m_per_s = 1} ~> allowed: rate_deg_per_s, rate_rad_per_s
 drive = {type = "TableDrive", times_s = [0, 1], extensions_mm = [0, 1]} ~> extensions_deg
 == OIL
+oil_length_mm = {value = 500, from = -1, to = 800} -> oil_length_mm.from = -1: allowed: > 0
 oil_length_mm = {value = 900, from = 300, to = 800} ~> oil_length_mm.value = 900: allowed: from 300
 damping_time_s = 1e-3 -> damping_time_s: there is no such key any more; allowed: a line
 oil_length_mm = {valeu = 1} -> oil_length_mm.valeu: unknown key; did you mean 'value'?

@@ -93,8 +93,6 @@ def load_machine(path: str | Path, named: bool = False) -> MachineData:
     try:
         text = text_of(path)
     except FileNotFoundError as error:
-        if named:
-            raise
         raise missing_file(path, f"a machine data file, or one of {', '.join(SHIPPED)}", SHIPPED) from error
     try:
         found = _of_text(text)

@@ -160,7 +160,7 @@ def scenario_file_of(
     if rest.get("type", "Scenario") != "Scenario":
         faults.wrong(("type",), rest["type"], '"Scenario", or to leave it out')
     machine = read_machine_of(rest, faults, folder)
-    scenario = _scenario(rest, faults, folder, machine)
+    scenario = _scenario(rest, faults, folder, machine, sourced)
     faults.check()
     assert machine is not None  # else it is among the faults
     warnings = (*machine.warnings, *_undriven(scenario, "drive" in rest))
@@ -186,11 +186,17 @@ def _undriven(scenario: Scenario, says_drive: bool) -> Iterator[str]:
         )
 
 
-def _scenario(table: dict[str, Any], faults: Faults, folder: Path, machine: MachineData | None) -> Any:
+def _scenario(
+    table: dict[str, Any],
+    faults: Faults,
+    folder: Path,
+    machine: MachineData | None,
+    sourced: Mapping[str, SourcedNumber],
+) -> Any:
     """A scenario, or FAILED."""
     forms = ShortForms(folder, machine, table)
     shorts = {Pin: forms.pin, Guide: forms.guide, ActuatorModel: forms.actuator, Drive: forms.drive}
-    reader = Reader(faults, {**shorts, Machine: forms.machine})
+    reader = Reader(faults, {**shorts, Machine: forms.machine}, sourced)
     apart = forms.drives(reader, table)
     if apart:
         own = {name: one for name, one in table["drives"].items() if isinstance(one, dict)}

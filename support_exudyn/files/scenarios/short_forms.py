@@ -11,7 +11,7 @@ from typing import Any, Literal, TypeVar
 from support_exudyn.files.machines.read import SHIPPED, read_machine
 from support_exudyn.files.scenarios.drive_table import one_drive, read_drives
 from support_exudyn.files.scenarios.short_joints import ShortContact, ShortGuide, ShortPin, pin_in_machine
-from support_exudyn.files.toml.faults import Faults, Place, quoted
+from support_exudyn.files.toml.faults import Faults, Place
 from support_exudyn.files.toml.reading import FAILED, Reader
 from support_exudyn.files.toml.shapes import GroupShape, field_shapes
 from support_exudyn.machines.machine_data import MachineData
@@ -70,44 +70,25 @@ def read_machine_of(table: Mapping[str, Any], faults: Faults, folder: Path) -> M
         return None if found is FAILED else MachineData(found)
     if isinstance(given, (Machine, MachineData)):  # made by a program, see `simple_scenario`
         return MachineData(given) if isinstance(given, Machine) else given
-    quoted = f"a path that ends in .toml, one of {', '.join(SHIPPED)}, or a table [machine]"
+    allowed = f"a path that ends in .toml, one of {', '.join(SHIPPED)}, or a table [machine]"
     if given is None:
-        faults.add(("machine",), f"missing; allowed: {quoted}")
+        faults.add(("machine",), f"missing; allowed: {allowed}")
     else:
-        faults.wrong(("machine",), given, quoted)
+        faults.wrong(("machine",), given, allowed)
     return None
 
 
 def _from_file(name: str, faults: Faults, folder: Path) -> MachineData | None:
-    if "\0" in name:
-        faults.wrong(("machine",), name, "a name that a file can have")
-        return None
-    own = _own(name, folder)
-    if own and name not in SHIPPED and not name.lower().endswith(".toml"):
-        faults.add((), f"machine = {quoted(name)}: there is none of this name; did you mean {own}?")
-        return None
     try:
         return read_machine(name, folder)
     except InputError as error:
         of_file = name.lower().endswith(".toml")  # which it then names itself
         faults.lines += [line if of_file else f"{faults.where}: {line}" for line in str(error).splitlines()]
-    except (OSError, ValueError) as error:  # ValueError: of names that no file can have
-        reason = getattr(error, "strerror", None) or error
-        meant = f"; did you mean {own}?" if own and isinstance(error, FileNotFoundError) else ""
+    except OSError as error:
         faults.wrong(
-            ("machine",), name, f"a file that can be read ({reason}), from {folder.resolve()} on{meant}"
+            ("machine",), name, f"a file that can be read, from {folder.resolve()} on ({error.strerror})"
         )
     return None
-
-
-def _own(name: str, folder: Path) -> str:
-    """The file of the same folder whose name is nearest; empty if none is near."""
-    try:
-        files = [one.name for one in folder.glob("*.toml")]
-    except OSError:
-        return ""
-    near = [f"{name}.toml"] if f"{name}.toml" in files else get_close_matches(name[:80], files, 1, 0.8)
-    return quoted(near[0]) if near else ""
 
 
 OF_CRANKS = (

@@ -20,6 +20,7 @@ from support_exudyn.files.toml.shapes import (
     inner_shape,
     is_number,
     options,
+    within,
 )
 from user_forces.values.names import nearest
 from user_forces.values.sourced import SourcedNumber
@@ -37,12 +38,19 @@ class Reader:
     """Reads values from tables, and collects their faults.
 
     faults: collects them. short_forms: by class, another way to write its values: takes the reader, the item
-    and its place, and returns the value, FAILED, or None if the item is in the long form.
+    and its place, and returns the value, FAILED, or None if the item is in the long form. sourced: numbers with
+    a range by their dotted keys, whose ends are to lie in the range of their field.
     """
 
-    def __init__(self, faults: Faults, short_forms: Mapping[type[Value], ShortForm] | None = None) -> None:
+    def __init__(
+        self,
+        faults: Faults,
+        short_forms: Mapping[type[Value], ShortForm] | None = None,
+        sourced: Mapping[str, SourcedNumber] | None = None,
+    ) -> None:
         self.faults = faults
         self.short_forms = dict(short_forms or {})
+        self.sourced = sourced or {}
 
     def value(
         self,
@@ -179,6 +187,8 @@ class Reader:
         if item is FAILED:
             return item
         if _is_number(item) and shape.get("type") != "boolean":
+            if self.sourced and (number := self.sourced.get(dotted_key(place))):
+                self._check_ends(number, shape, place, unit, ending)
             return item if unit is None and isinstance(item, int) else _number_in_si(item, unit, ending)
         group = next((each["group"] for each in several if "group" in each), None)
         if group is not None and (len(several) == 1 or isinstance(item, dict)):
@@ -198,6 +208,17 @@ class Reader:
             name: self._in_si(inner_shape(shape, name), each, (*place, name), unit, ending)
             for name, each in item.items()
         }
+
+    def _check_ends(
+        self, number: SourcedNumber, shape: Shape, place: Place, unit: Unit | None, ending: str
+    ) -> None:
+        """Note the ends of a number's range that its field does not allow."""
+        kinds = [one for one in options(shape) if is_number(one)]
+        for key, end in (("from", number.low), ("to", number.high)):
+            if end is not None and kinds:
+                in_si = _number_in_si(end, unit, ending)
+                if not any(within(one, in_si) for one in kinds):
+                    self.faults.wrong((*place, key), end, allowed(either(kinds), unit, ending))
 
     def member(self, group: GroupShape, item: Any, place: Place) -> Any:
         """A value of a group of classes from an item of a file; FAILED, with the reason among the faults."""
@@ -243,7 +264,7 @@ def read_value(
     """
     faults = Faults(where)
     item = table if sourced is None else plain_numbers(table, (), faults, sourced)
-    found = Reader(faults, short_forms).member(GroupShape((cls,)), item, ())
+    found = Reader(faults, short_forms, sourced).member(GroupShape((cls,)), item, ())
     faults.check()
     return found  # type: ignore[no-any-return]
 

@@ -1,7 +1,6 @@
 """JSON Schemas of files, made from what the classes declare, by which editors complete and check TOML."""
 
 import inspect
-import re
 from decimal import Decimal
 from itertools import combinations
 from typing import Any
@@ -25,10 +24,6 @@ from user_forces.values.value import Value
 
 DRAFT = "https://json-schema.org/draft/2020-12/schema"
 Table = dict[str, Any]
-
-
-BRACKETS = re.compile(r"\[([^\]]*)\]")
-NUMBER = re.compile(r"(?<![\w^])\d[\d.e-]*")
 
 
 class Schemas:
@@ -152,18 +147,10 @@ def _sourced() -> Table:
 
 
 def _help(field: FieldShape, ending: str) -> str:
-    """The help on a field, with the unit of a key in place of that of the program."""
-    unit = field.unit
-    if unit is None or not ending or unit.endings[ending] == 1:
+    """The help on a field; where a key has another unit than the program, that unit is added."""
+    if field.unit is None or not ending or field.unit.endings[ending] == 1:
         return field.help
-    for found in BRACKETS.finditer(field.help):
-        of_program = found[1].replace(" ", "_").replace("/", "_per_").replace("^", "")
-        if unit.endings.get(of_program) == 1 and (of_program in ANGLES) == (ending in ANGLES):
-            before, after = field.help[: found.start()], field.help[found.end() :]
-            here = ending.replace("_per_", "/").replace("_", " ")
-            numbers = any(set(one) & set("123456789") for one in NUMBER.findall(BRACKETS.sub("", field.help)))
-            return f"{before}[{here}{f'; numbers in this text are in {found[1]}' if numbers else ''}]{after}"
-    return field.help
+    return f"{field.help.rstrip('.')}; this key is in {ending.replace('_per_', '/').replace('_', ' ')}."
 
 
 def _default(field: FieldShape, ending: str) -> Any:

@@ -6,6 +6,7 @@ that are asked for when it is read.
 """
 
 import inspect
+import operator
 import re
 import typing
 from collections.abc import Callable, Mapping, Sequence
@@ -28,7 +29,7 @@ from user_forces.values.value import GROUP, InputError, Value, is_kind_of, kinds
 
 Shape = Mapping[str, Any]
 NAMES = "names"  # in the schemas of fields: the names of a text
-BOUNDS = {  # keywords of JSON Schema, each with pydantic's name and its sign
+BOUNDS = {  # keywords of JSON Schema, each with the name that pydantic and `operator` have, and its sign
     "exclusiveMinimum": ("gt", ">"),
     "minimum": ("ge", ">="),
     "exclusiveMaximum": ("lt", "<"),
@@ -172,6 +173,13 @@ def is_numeric(shape: Shape) -> bool:
 def is_number(shape: Shape) -> bool:
     """Whether what fits a shape is a number of any size in its bounds."""
     return shape.get("type") in ("number", "integer") and "enum" not in shape
+
+
+def within(shape: Shape, number: float) -> bool:
+    """Whether a number in SI lies in the bounds of a shape."""
+    return all(
+        getattr(operator, name)(number, shape[word]) for word, (name, _) in BOUNDS.items() if word in shape
+    )
 
 
 def field_shapes(cls: type[Value]) -> Mapping[str, FieldShape]:
