@@ -13,12 +13,6 @@ from user_forces import InputError
 GOOD = "time_s,front_column_mm,rear_column_mm\n0,0,0\n1,100,90.1\n\n2.5, 250 ,240\n"
 
 
-def drives(folder: Path, text: str | bytes) -> object:
-    path = folder / "a.csv"
-    path.write_bytes(text.encode("utf-8", "surrogatepass") if isinstance(text, str) else text)
-    return read_drives(path)
-
-
 def test_every_column_is_a_drive(tmp_path: Path) -> None:
     (tmp_path / "a.csv").write_text(GOOD)
     found = read_drives(tmp_path / "a.csv", "linear")
@@ -63,7 +57,8 @@ def test_one_of_several_has_to_be_chosen(tmp_path: Path) -> None:
         ("time_s,a_mm\n0,0\n1,1\n1,2\n", "a.csv: Times are repeated"),
     ],
 )
-def test_what_is_wrong_is_said_with_file_and_column(tmp_path: Path, text: str | bytes, said: str) -> None:
+def test_what_is_wrong_is_said_with_file_and_column(tmp_path: Path, text: str, said: str) -> None:
+    (tmp_path / "a.csv").write_text(text)
     with pytest.raises(InputError) as caught:
-        drives(tmp_path, text)
+        read_drives(tmp_path / "a.csv")
     assert str(caught.value).removeprefix(f"{tmp_path}/").startswith(said)

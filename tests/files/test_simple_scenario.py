@@ -14,9 +14,7 @@ from support_exudyn import (
     read_scenario,
     simple_scenario,
 )
-from user_forces import (
-    InputError,
-)
+from user_forces import InputError
 
 FILE = """
 machine = "zf18000"
