@@ -4,6 +4,7 @@
 """
 
 import os
+import shutil
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache
@@ -60,7 +61,7 @@ def movie(workers: int, path: Path) -> None:
     """The whole run as a movie."""
     how: dict[str, Any] = {"frames_per_second": MOVIE_RATE, "speed": MOVIE_SPEED, "size": MOVIE_SIZE}
     with TemporaryDirectory() as frames:
-        render(with_clearance(workers), Path(frames) / "frames", **how, movie_path=path)
+        shutil.move(render(with_clearance(workers), Path(frames) / "frames", **how).movie, path)
 
 
 def map_step_stiffness(workers: int) -> Figure:

@@ -34,7 +34,6 @@ from support_exudyn import Result, Scenario
 from support_exudyn.commands.command_line import answered, say
 from support_exudyn.files.whole_file import remove_leftovers, whole_file, writing_alone
 from support_exudyn.postprocessing.figures import style
-from support_exudyn.postprocessing.figures.drawing_data import save_drawing_data
 from support_exudyn.postprocessing.page.live import of_drawing
 from support_exudyn.postprocessing.page.pieces import HARD_SPACE, KeyNumber, Sheet, unbroken
 from support_exudyn.simulation.at_start import be_interruptible
@@ -228,7 +227,6 @@ def _save_figure(place: int, drawing: Figure, out: Path, name: str, live: LivePa
     del place
     with style.look():
         style.save(drawing, out, name)
-    save_drawing_data(drawing, out / f"{name}.csv")
     if live:
         of_drawing(drawing, live).save(out / f"{name}.live.json")
 

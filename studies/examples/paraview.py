@@ -12,7 +12,7 @@ from matplotlib import pyplot as plt
 from matplotlib.collections import PolyCollection
 
 from support_exudyn import simple_scenario, simulate
-from support_exudyn.postprocessing.export.mesh_files import to_vtu
+from support_exudyn.postprocessing.export.meshes import to_vtu
 from support_exudyn.postprocessing.export.sampling import Sampling
 
 scenario = simple_scenario(

@@ -38,7 +38,7 @@ COMMANDS = {  # by group: of every command its module and a line of what it does
     },
     "Look at runs": {
         "show": ("runs", "tables of what a run or a sweep was and what came out of it"),
-        "plot": ("runs", "figures of runs: channels, journal orbit, Poincare section, force spectrum"),
+        "plot": ("runs", "figures of runs: channels, journal orbit, force spectrum"),
         "report": ("outputs", "a page on runs: what was run, numbers with errors, live figures, a picture"),
         "render": ("outputs", "ray-traced frames and a movie of a run, without a display"),
         "view": ("outputs", "open Exudyn's solution viewer on a run"),
@@ -52,7 +52,7 @@ COMMANDS = {  # by group: of every command its module and a line of what it does
         "baseline": ("compare", "keep what scenarios come out at, and report what has changed since"),
     },
     "Write for other programs": {
-        "export": ("outputs", "moving meshes for ParaView (XDMF, VTU) and tables of channels (CSV, HDF5)"),
+        "export": ("outputs", "moving meshes for ParaView (VTU) and tables of channels (CSV, HDF5)"),
         "measure": ("outputs", "what instruments on the machine read of a run, as a table (CSV)"),
         "scenario": ("before_runs", "the scenario of a run as a TOML file, which `run` takes"),
         "docs": ("before_runs", "build the documentation as a site; needs the extra [docs]"),

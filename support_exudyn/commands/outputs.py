@@ -3,7 +3,7 @@
 import re
 from collections.abc import Callable
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 from cyclopts import Parameter
 from cyclopts.validators import Number
@@ -15,7 +15,7 @@ from support_exudyn.scene.contract import Progress
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError, short
 
-USUAL = ("xdmf", "vtu", "csv", "hdf5")
+USUAL = ("vtu", "csv", "hdf5")
 FORMATS = (*USUAL, "solution")
 Every = Annotated[int | None, cli.at_most(10**9)]  # records
 Positive = Annotated[float, Parameter(validator=Number(gte=1e-9, lte=1e9))]
@@ -67,7 +67,7 @@ def render(
     after: cli.After | None = None,
     until: cli.Until | None = None,
     speed: float = 1.0,
-    movie: Literal["gif", "mp4", "none"] = "gif",
+    movie: bool = True,
     size: Size = None,
     pin: str | None = None,
     still: float | None = None,
@@ -81,8 +81,8 @@ def render(
         frames_per_second: Of the movie, 0.1 to 240 (25).
         speed: Seconds of the run in a second of the movie (1); 0.01 is a hundred times slower, for impacts. A
             frame shows the record next to its time.
-        movie: Kind of the movie (gif: at most 960 pixels wide); mp4 needs the extra [movie].
-        size: WxH of frames in pixels, even (960x540 of a gif, else 1280x720).
+        movie: Make a GIF of the frames.
+        size: WxH of frames in pixels, even (960x540, a picture 1280x720).
         pin: Whose force is shown, and journal first of all (the first clearance pin).
         still: Time of a single picture [s]; no movie.
     """
@@ -99,7 +99,7 @@ def render(
         path = out or run.with_name(f"{run.stem}_{still:g}s.png")
         if path.suffix.lower() != ".png":
             raise InputError(f"--out {path}: allowed with --still: a name that ends in .png")
-        picture = rendering.still(result, still, size=size or rendering.SIZE, pin=pin)
+        picture = rendering.still(result, still, size=size or rendering.STILL, pin=pin)
         with whole_file(path) as temporary:
             Image.fromarray(picture).save(temporary, format="PNG")
         cli.put(json, {"frames": [path], "movie": None}, path)
@@ -114,7 +114,7 @@ def render(
             until=until,
             speed=speed,
             movie=movie,
-            size=size,
+            size=size or rendering.SIZE,
             pin=pin,
             progress=progress,
         )
@@ -188,16 +188,15 @@ def export(
 
     Args:
         run: File of a run.
-        to: FORMAT,FORMAT,... (all but the last that the run has recorded enough for). xdmf: NAME.xdmf and
-            NAME_pins.xdmf, with one HDF5 file for both; vtu: a folder NAME_vtu with a file per step,
-            machine.pvd and pins.pvd; csv: NAME.csv; hdf5: NAME_channels.h5 for MATLAB and others; solution:
-            NAME_solution.txt, Exudyn's own solution file, all records.
+        to: FORMAT,FORMAT,... (all but the last that the run has recorded enough for). vtu: a folder NAME_vtu
+            with a file per step, machine.pvd and pins.pvd, for ParaView; csv: NAME.csv; hdf5: NAME_channels.h5
+            for MATLAB and others; solution: NAME_solution.txt, Exudyn's own solution file, all records.
         out: Folder (NAME_export next to the run).
         every: One in so many records.
         frames_per_second: The records nearest to so many times per second of the run (25 for meshes, all
             records for tables).
     """
-    from support_exudyn.postprocessing.export.mesh_files import MESHES, to_vtu, to_xdmf  # and meshio
+    from support_exudyn.postprocessing.export.meshes import MESHES, to_vtu  # and meshio
     from support_exudyn.postprocessing.export.sampling import Sampling
     from support_exudyn.postprocessing.export.solution_file import save_solution
     from support_exudyn.postprocessing.export.tables import TABLES, to_csv, to_hdf5
@@ -220,7 +219,6 @@ def export(
         for own in (MESHES, TABLES)
     )
     work: dict[str, Callable[[Progress], tuple[Path, ...]]] = {
-        "xdmf": lambda progress: to_xdmf(result, folder / f"{name}.xdmf", meshes, progress),
         "vtu": lambda progress: to_vtu(result, folder / f"{name}_vtu", meshes, progress),
         "csv": lambda progress: to_csv(result, folder / f"{name}.csv", tables, progress),
         "hdf5": lambda progress: to_hdf5(result, folder / f"{name}_channels.h5", tables),

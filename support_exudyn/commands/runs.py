@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import Annotated, Literal
 
 from cyclopts import Parameter
-from cyclopts.validators import Number
 
 from support_exudyn.commands import command_line as cli
 from support_exudyn.files.whole_file import writable
@@ -38,7 +37,6 @@ Goal = Annotated[
     Literal["draft", "standard", "reference"] | float | None,
     Parameter(validator=_check_goal, help=f"In place of the file's: {GOALS}."),
 ]
-Share = Annotated[float, Parameter(validator=Number(gte=0.0, lte=1.0))]
 
 
 def run(
@@ -152,14 +150,11 @@ def plot(
     *others: str,
     difference: bool = False,
     orbit: bool = False,
-    poincare: bool = False,
     spectrum: bool = False,
     stability: bool = False,
     pin: str | None = None,
     after: cli.After = -math.inf,
     until: cli.Until = math.inf,
-    phase: Share = 0.0,
-    section: tuple[str, str] | None = None,
     rate: cli.Rate | None = None,
     out: Annotated[Path | None, cli.FIGURES] = None,
     json: cli.Json = False,
@@ -172,12 +167,9 @@ def plot(
             Then channels over time: names, or patterns as `pin.*.force`.
         difference: Draw of several runs what differs from the first.
         orbit: Draw the path of the journal of a clearance pin in its bore.
-        poincare: Draw a section once in every period of the drive, or by impacts.
         spectrum: Draw the spectrum of the force in a pin.
         stability: Draw where friction makes pins vibrate as they slide, over stroke and friction.
-        pin: Pin of orbit, section, spectrum and stability (the first with clearance).
-        phase: Share of the period, 0 to 1, at which a section is taken (0).
-        section: Two channels of a section once in every period.
+        pin: Pin of orbit, spectrum and stability (the first with clearance).
         rate: Rows per second [Hz] of files without times.
         out: Folder of the figures (RUN_figures next to the run), or file of the only figure (.png, .pdf, .svg).
     """
@@ -190,7 +182,7 @@ def plot(
     runs = {name: Result.load(path) for name, path in names.items() if name not in curves}
     if not runs:
         raise InputError(f"{run}: is no run; allowed: with a run before it, plot RUN {run}")
-    asked = {"orbit": orbit, "poincare": poincare or section, "spectrum": spectrum, "stability": stability}
+    asked = {"orbit": orbit, "spectrum": spectrum, "stability": stability}
     kinds = [kind for kind, is_asked in asked.items() if is_asked]
     if difference and (len(runs) < 2 or curves):
         raise InputError(
@@ -198,7 +190,7 @@ def plot(
         )
     if len(names) > 1 and (kinds or pin):
         raise InputError(
-            "--orbit, --poincare, --spectrum, --stability, --section, --pin: are of one run, and "
+            "--orbit, --spectrum, --stability, --pin: are of one run, and "
             f"{len(names)} are given; allowed with several: channels"
         )
     left_out: dict[str, str] = {}
@@ -212,10 +204,7 @@ def plot(
             drawn = {of_runs.in_name(patterns): of_runs.of_several(runs, series, patterns, ends, difference)}
         else:
             (called,) = runs
-            figures = of_runs.of_run(
-                runs[called], patterns, kinds, pin, ends, left_out,
-                phase=phase, section=section or (), alone=cli.is_file(out),
-            )  # fmt: skip
+            figures = of_runs.of_run(runs[called], patterns, kinds, pin, ends, left_out, alone=cli.is_file(out))
             drawn = {what: style.named(drawing, called) for what, drawing in figures}
         window = of_runs.window_in_name(*ends)
         drawings = {of_runs.joined(called, what, window): drawing for what, drawing in drawn.items()}

@@ -66,24 +66,7 @@ class Read(NamedTuple):
 
 
 def by_vtk(path: Path) -> list[Read]:
-    """All steps of an XDMF or PVD file, by VTK's own readers."""
-    return _xdmf(path) if path.suffix == ".xdmf" else _pvd(path)
-
-
-def _xdmf(path: Path) -> list[Read]:
-    reader = vtk.vtkXdmfReader()
-    reader.SetFileName(str(path))
-    reader.UpdateInformation()
-    times = reader.GetOutputInformation(0).Get(vtk.vtkStreamingDemandDrivenPipeline.TIME_STEPS())
-    steps = []
-    for time in times:
-        reader.UpdateTimeStep(time)
-        steps.append(_read(time, reader.GetOutputDataObject(0)))
-    return steps
-
-
-def _pvd(path: Path) -> list[Read]:
-    """The reader of PVD is ParaView's, and not in VTK; that of the files of the steps is."""
+    """All steps of a PVD file. Its reader is ParaView's, and not in VTK; that of the files of the steps is."""
     steps = []
     for item in ElementTree.parse(path).getroot().iter("DataSet"):
         reader = vtk.vtkXMLUnstructuredGridReader()

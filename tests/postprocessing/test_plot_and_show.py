@@ -51,7 +51,7 @@ def both(*stems: str) -> set[str]:
 def test_without_a_wish_an_overview_is_drawn(runs: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["plot", str(runs / "with_clearance.h5")]) == 0
     out = runs / "with_clearance_figures"
-    kinds = "overview", "orbit_rear_base", "poincare_rear_base", "spectrum_rear_base"
+    kinds = "overview", "orbit_rear_base", "spectrum_rear_base"
     expected = both(*(f"with_clearance_{kind}" for kind in kinds))
     assert names(out) == expected
     assert {Path(line).name for line in capsys.readouterr().out.splitlines()} == expected
@@ -77,7 +77,6 @@ def test_several_runs_are_drawn_one_upon_another(runs: Path, tmp_path: Path) -> 
         ("with_clearance", ["--orbit", "--pin", "front_base"], "no clearance pin"),
         ("ideal", ["--orbit"], "no clearance pin"),
         ("with_clearance", ["tip.x", "--after", "7"], "0 records lie between"),
-        ("with_clearance", ["--section", "tip.x", "tip.y"], "periods of the drive"),
         ("nothing", [], "no such file"),
     ],
 )

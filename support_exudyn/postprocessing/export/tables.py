@@ -35,7 +35,7 @@ def to_csv(
     Numbers read back as the same bits; pandas before 3 needs `read_csv(path, float_precision="round_trip")` for
     that. MATLAB keeps the names with `readtable(path, VariableNamingRule="preserve")`.
 
-    Arguments are those of `to_xdmf`; all records if nothing else is asked for. Returns the path.
+    Arguments are those of `to_vtu`; all records if nothing else is asked for. Returns the path.
 
     Raises InputError if no record is chosen, or if a run is at the path; OSError if it cannot be written.
     """
@@ -64,7 +64,7 @@ def to_hdf5(result: Result, path: str | Path, sampling: Sampling = TABLES) -> tu
     In MATLAB: `h5read(path, "/channels/pin.rear_base.force")`, `h5readatt(path, "/channels/tip.x", "unit")`.
     It is not the file of a run, which `Result.save` writes and only `Result.load` reads.
 
-    Arguments are those of `to_xdmf`; all records if nothing else is asked for; onsets are always all.
+    Arguments are those of `to_vtu`; all records if nothing else is asked for; onsets are always all.
     Returns the path.
 
     Raises InputError if no record is chosen, or if a run is at the path; OSError if it cannot be written.

@@ -9,17 +9,8 @@ from matplotlib.figure import Figure
 
 from support_exudyn.files.series.named_series import SeriesFile
 from support_exudyn.files.whole_file import whole_file
-from support_exudyn.postprocessing.figures import (
-    channels,
-    orbit,
-    overlay,
-    poincare,
-    spectrum,
-    stability_map,
-    style,
-)
+from support_exudyn.postprocessing.figures import channels, orbit, overlay, spectrum, stability_map, style
 from support_exudyn.postprocessing.figures.journal import chosen_pin, clearance_joints
-from support_exudyn.postprocessing.figures.selection import matching
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
 
@@ -36,8 +27,6 @@ def of_run(
     ends: tuple[float, float],
     left_out: dict[str, str],
     *,
-    phase: float = 0.0,
-    section: tuple[str, ...] = (),
     alone: bool = False,
 ) -> Iterator[tuple[str, Figure]]:
     """Each figure of a run with what it shows, as a part of its file's name.
@@ -45,40 +34,27 @@ def of_run(
     Arguments:
         result: the run.
         patterns: channels over time, or patterns of them; without them and without kinds or a pin an overview.
-        kinds: of figures of a pin: "orbit", "poincare", "spectrum", "stability"; without, all that can be drawn
+        kinds: of figures of a pin: "orbit", "spectrum", "stability"; without, all that can be drawn
             of the pin, unless there are patterns, or `alone` asks for a single figure.
         pin: its name; None: the first with clearance.
         ends: times [s].
         left_out: gets the kinds that were not asked for and cannot be drawn, and why.
-        phase: of a section, as a share of the period. section: its two channels.
 
     Raises InputError for a kind that was asked for and cannot be drawn.
     """
     if patterns or not (kinds or pin):
         yield in_name(patterns), channels.over_time(result, patterns or usual(result), *ends)
     if kinds:
-        yield from (_of_pin(kind, result, pin, ends, phase, section) for kind in kinds)
+        yield from (_of_pin(kind, result, pin, ends) for kind in kinds)
     elif clearance_joints(result) and (pin or not (patterns or alone)):
-        for kind in ("orbit", "poincare", "spectrum"):
+        for kind in ("orbit", "spectrum"):
             try:
-                yield _of_pin(kind, result, pin, ends, phase, section)
+                yield _of_pin(kind, result, pin, ends)
             except InputError as error:  # noqa: PERF203
                 left_out[kind] = str(error)
 
 
-def _of_pin(
-    kind: str,
-    result: Result,
-    pin: str | None,
-    ends: tuple[float, float],
-    phase: float,
-    section: tuple[str, ...],
-) -> tuple[str, Figure]:
-    if kind == "poincare":
-        pin = next((joint for joint in clearance_joints(result) if pin in (None, joint)), None)
-        pair = matching(result.channels, section)
-        drawing = poincare.poincare(result, pin, *ends, phase=phase, channels=pair)
-        return joined(kind, pin or "", *section, f"phase_{phase:g}" if phase else ""), drawing
+def _of_pin(kind: str, result: Result, pin: str | None, ends: tuple[float, float]) -> tuple[str, Figure]:
     if kind == "stability":
         pins = () if pin is None else (chosen_pin(result, pin, with_clearance=False),)
         return kind, stability_map.stability_map(result.scenario, pins)

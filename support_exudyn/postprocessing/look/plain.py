@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 from shapely.affinity import rotate, translate
-from shapely.geometry import LineString, MultiPoint, Point, Polygon, box
+from shapely.geometry import MultiPoint, Point, Polygon, box
 from shapely.ops import unary_union
 from trimesh import Trimesh
 
@@ -129,8 +129,7 @@ def _actuator(scenario: Scenario, name: str, radius: float) -> Iterator[Shape]:
     """An actuator as cylinder and rod; radius: of the cylinder [m]."""
     actuator, width = scenario.linkage.actuators[name], scenario.machine.widths()
     pairs = _pairs(scenario)
-    reach = math.dist(actuator.foot_point, actuator.head_point)
-    meshes = axle(0.0, CYLINDER * reach, radius), axle(-0.9 * reach, 0.0, 0.65 * radius)
+    meshes = _telescope(math.dist(actuator.foot_point, actuator.head_point), radius)
     for side, z, _ in copies(width.actuators.get(name) if width else None):
         part = side if scenario.dimensions == 3 else ""
         foot, head = (body + part * (body in pairs) for body in (actuator.foot, actuator.head))
@@ -181,36 +180,20 @@ def _pairs(scenario: Scenario) -> Mapping[str, float]:
 
 # --- springs, guides with clearance, falling blocks ---
 
-TURNS = 6  # of a zigzag
-ZIGZAG = (0.15, 0.75)  # of the length at the start, between which it lies
-WIRE = 0.22  # half the thickness of what it is drawn with, of its half width
-DASHPOT, OVERLAP = 0.55, 1.05  # length of a damper's cylinder, of its own at the start; and of both together
 
-
-def springs(scenario: Scenario, half_width: float) -> Iterator[Shape]:
-    """Each spring and damper between two points: a zigzag and a rod, or a dashpot; half_width: of a zigzag [m].
-
-    The zigzag stays as it is while the rod at its other end follows.
-    """
+def springs(scenario: Scenario, radius: float) -> Iterator[Shape]:
+    """Each spring and damper between two points, as cylinder and rod; radius: of the cylinder [m]."""
     sides = 1.0 if scenario.dimensions == 3 else 0.0  # by which lateral places count
     for name, load in scenario.acting_loads.items():
         if isinstance(load, SpringDamper):
             foot, head = at(load.other_point, sides * load.other_lateral), at(load.point, sides * load.lateral)
-            meshes = _spring(math.dist(foot, head), half_width, is_damper=load.stiffness == 0.0)
+            meshes = _telescope(math.dist(foot, head), radius)
             yield from Strut(name, load.other, load.body, foot, head).shapes(*meshes)
 
 
-def _spring(length: float, half_width: float, *, is_damper: bool) -> tuple[Trimesh, Trimesh]:
-    """The surfaces at both ends of a spring or damper of this length at the start [m]."""
-    if is_damper:
-        rod = axle((DASHPOT - OVERLAP) * length, 0.0, 0.4 * half_width)
-        return axle(0.0, DASHPOT * length, half_width), rod
-    first, last = (share * length for share in ZIGZAG)
-    places = np.linspace(first, last, 2 * TURNS + 1)
-    aside = [0.0, *(half_width * (-1.0) ** n for n in range(2 * TURNS - 1)), 0.0]
-    wire = LineString([(0.0, 0.0), *zip(places.tolist(), aside, strict=True)])
-    zigzag = plate(wire.buffer(WIRE * half_width, join_style="mitre"), 0.0, 2.0 * half_width)
-    return zigzag, axle(last - length, 0.0, WIRE * half_width)
+def _telescope(length: float, radius: float) -> tuple[Trimesh, Trimesh]:
+    """Cylinder and rod of a strut of this length at the start [m], whose stroke is not known."""
+    return axle(0.0, CYLINDER * length, radius), axle(-0.9 * length, 0.0, 0.5 * radius)
 
 
 def slot_walls(slide: Slide, guide: Guide, length: float) -> list[Polygon]:

@@ -164,31 +164,22 @@ def together(meshes: Iterable[Trimesh]) -> Trimesh:
 
 # --- hydraulic cylinders ---
 
-INSIDE = (
-    0.08  # of the shortest length: rod that always stays in the cylinder, and the end that it never reaches
-)
-SHORTEST_CYLINDER = 0.68  # of the shortest length
-BALL = 0.95  # radius of the ends, of the cylinder's
-ROD = 0.66  # radius of the rod, of the cylinder's
-
-
-def lengths(shortest: float, longest: float) -> tuple[float, float]:
-    """Lengths of cylinder and rod [m] of an actuator whose ends are so far apart at least and at most [m].
-
-    The rod is in the cylinder by a share of the shortest length when the actuator is longest, and does not come
-    out at the other end when it is shortest. An actuator of one stage cannot do both if it becomes more than
-    1.74 times as long; then the rod is longer than that.
-    """
-    inside = INSIDE * shortest
-    rod = shortest - inside
-    cylinder = max(SHORTEST_CYLINDER * shortest, longest - rod + inside)
-    cylinder = min(cylinder, 0.9 * shortest)
-    return cylinder, max(rod, longest - cylinder + inside)
+INSIDE = 0.08  # of the shortest length: rod that stays in the cylinder, and the end that it never reaches
+BALL, ROD = 0.95, 0.66  # radius of the ends, and of the rod, of the cylinder's
 
 
 def cylinder_and_rod(shortest: float, longest: float, radius: float) -> tuple[Trimesh, Trimesh]:
-    """Surfaces of both, with balls at their ends, as `Strut.shapes` takes them; radius: of the cylinder [m]."""
-    cylinder, rod = lengths(shortest, longest)
+    """Surfaces of both, with balls at their ends, as `Strut.shapes` takes them.
+
+    An actuator of one stage cannot become more than 1.74 times as long; then the rod is too long for it.
+
+    Arguments:
+        shortest, longest: distance of the ends over the stroke [m].
+        radius: of the cylinder [m].
+    """
+    inside = INSIDE * shortest
+    cylinder = min(max(0.68 * shortest, longest - shortest + 2.0 * inside), 0.9 * shortest)
+    rod = max(shortest - inside, longest - cylinder + inside)
     ball, collar = icosphere(2, BALL * radius), min(0.7 * radius, 0.2 * cylinder)
     barrel = axle(0.0, cylinder - collar, radius), axle(cylinder - collar, cylinder, 1.12 * radius)
     return together([ball, *barrel]), together([ball, axle(-rod, 0.0, ROD * radius)])

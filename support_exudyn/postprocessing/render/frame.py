@@ -1,174 +1,256 @@
 """A frame: the machine as the ray tracer sees it, journals in their bores, and force over time."""
 
 import math
-from collections.abc import Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import to_hex
-from matplotlib.patches import Circle, FancyBboxPatch, Patch
-from matplotlib.ticker import MaxNLocator
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle, FancyArrow, Rectangle
+from matplotlib.patheffects import withStroke
 
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.linkage import GROUND
-from support_exudyn.postprocessing.figures.selection import as_words, machine_name
+from support_exudyn.postprocessing.figures.selection import as_words, machine_name, nearest
 from support_exudyn.postprocessing.figures.style import CONTACT, FLIGHT, IDEAL, draw_pieces, pieces
 from support_exudyn.postprocessing.figures.units import readable, said_beside
 from support_exudyn.postprocessing.look.shapes import COLOURS, Role
-from support_exudyn.postprocessing.render.canvas import FAINT, INK, RULE, SMALLEST_FONT, Box, Canvas, Point
-from support_exudyn.postprocessing.render.movie import Moments
-from support_exudyn.postprocessing.render.pin_views import STEPS, PinView, format_round, round_up, usual
-from support_exudyn.postprocessing.render.scene import RenderedScene
-from support_exudyn.postprocessing.render.stage import Camera, Picture
+from support_exudyn.postprocessing.render.pin_views import PinView, format_round, pin_views, usual
+from support_exudyn.postprocessing.render.stage import VIEW, Picture, Stage
 from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.simulation.result import Result
 
-ARROW = 0.24  # length of the usual force's arrow, of the height of a machine's picture that is as wide as usual
-LONGEST = 0.42  # of an arrow in it
-SMALL = 0.72  # size of the letters of an inset that is one of several
-GAP = 8.0  # between insets
-WORDS = 135.0  # height of what is written below them
+USUAL = 1280, 720  # size of a frame in which lengths are counted; another one is larger or smaller in all
+MARGIN, TOP, PANEL, BELOW, GAP = 14, 48, 286, 142, 8  # of a frame: border, title, insets, strip, between insets
+ARROW, LONGEST = 0.2, 0.4  # length of the usual force's arrow, and of the longest, of the picture's height
+RING = 1.2  # radius of what is drawn about a bore, of the bore's
+LONGEST_INSIDE = 1.6  # of an arrow, in radii of the bore
+TRAIL = 0.25  # how long the trail of the journal's centre is, in seconds of the movie
+CUT = 1.25  # how far the axis of forces goes beyond what is usual
+INK, FAINT, FLIGHT_TEXT = "#1a1a1a", "#6b6b6b", "#1c7fb5"
+HOUSING, JOURNAL = to_hex(COLOURS[Role.BASE]), to_hex(COLOURS[Role.PIN])
+Point = tuple[float, float]
 
 
-class Layout:
-    """Places on a frame: a line on top, the machine, a panel on the right of it, and force over time below.
+class Times(NamedTuple):
+    """The times of frames (n,) [s], their step [s of the run], their rate [1/s], and the shown window [s].
 
-    Arguments:
-        width, height: of the frame [pixels].
-        has_panel: whether there is a pin to show.
+    Frames need not be at records: each shows the record next to its time, for between records it is not known
+    whether a journal has been in contact. In slow motion one record may so be seen in several frames.
     """
 
-    def __init__(self, width: int, height: int, has_panel: bool) -> None:
-        self.width, self.height = width, height
-        # by this lengths of a frame of 1280 x 720 are multiplied
-        self.unit = u = min(width / 1280, height / 720)
-        margin, top = max(2, round(14 * u)), round(48 * u)
-        aside, below = (round(286 * u), round(142 * u)) if has_panel else (0, 0)
-        right, bottom = width - margin, height - below
-        self.line: Box = (margin, 0, right, top)
-        self.picture: Box = (0, top, right - aside - margin if has_panel else width, bottom)
-        self.panel: Box = (right - aside, top, right, bottom)
-        self.strip: Box = (
-            margin + round(58 * u),
-            bottom + round(28 * u),
-            right - margin,
-            height - round(30 * u),
-        )
+    frames: Series
+    step: float
+    rate: float
+    window: tuple[float, float]
 
-    def insets(self, count: int) -> list[Box]:
-        """Squares for so many insets in the panel, as large as leaves room for the words below them."""
-        left, top, right, bottom = self.panel
-        if count < 2:
-            return [(left, top, right, top + right - left)][:count]
-        gap, room = GAP * self.unit, bottom - top - WORDS * self.unit
-        sides = {n: min((right - left + gap) / n, room / -(-count // n)) - gap for n in range(1, count + 1)}
-        columns = max(sides, key=lambda n: sides[n])
-        side, step = sides[columns], sides[columns] + gap
-        corners = [(left + n % columns * step, top + n // columns * step) for n in range(count)]
-        return [(round(x), round(y), round(x + side), round(y + side)) for x, y in corners]
+    @property
+    def pace(self) -> str:
+        """The words for the movie's speed; none at the run's."""
+        speed = self.step * self.rate
+        if self.frames.size == 1 or abs(speed - 1.0) < 1e-9:
+            return ""
+        return f"{1.0 / speed:.4g} \u00d7 slower" if speed < 1.0 else f"{speed:.4g} \u00d7 faster"
 
 
 class Painter:
-    """Paints all frames of a run; what does not change is drawn once.
+    """Paints the frames of a run.
 
     Arguments:
-        scene: the run.
-        layout, camera: of the frames.
-        pins: the first is that whose force is shown; of the others journals and arrows; none: no panel.
-        moments: of the frames.
+        result: the run.
+        size: width and height of frames [pixels].
+        pin: whose force is shown; None: the first clearance pin, or the first of all.
+        times: of the frames.
+
+    Raises InputError if there is no such pin, or the run has not recorded what frames show.
     """
 
-    def __init__(
-        self, scene: RenderedScene, layout: Layout, camera: Camera, pins: Sequence[PinView], moments: Moments
-    ) -> None:
-        self._scene, self._layout, self._camera, self._pins = scene, layout, camera, pins
-        self._moments, self._time = moments, scene.result.time
-        self._sheet = sheet = Canvas(layout.width, layout.height)
-        u, (left, _, right, bottom) = layout.unit, layout.line
-        text = title(scene.result.scenario, pins[0] if pins else None)
-        sheet.write((left, 0.66 * bottom), text, 17 * u, room=right - left - 360 * u)
-        if pins:
-            pin, (first, last) = pins[0], moments.shown
-            inside = (self._time >= first) & (self._time <= last)
-            self._usual = usual(pin.size[moments.records] if moments.times.size > 1 else pin.size[inside])
-            wide, high = layout.picture[2] - layout.picture[0], layout.picture[3] - layout.picture[1]
-            self._scale = ARROW * min(high, 0.55 * wide) / self._usual  # pixels to a newton
-            self._panel(pin)
-            self._strip = Strip(sheet, layout.strip, self._time[inside], pin, inside, moments.shown, u)
-        sheet.hold()
-
-    def _panel(self, pin: PinView) -> None:
-        """Draw what of the panel does not change: the bores, and the scale of the arrow."""
-        u, sheet, below = self._layout.unit, self._sheet, self._layout.panel[1]
-        loose = [one for one in self._pins if one.is_loose]
-        several, self._insets = len(loose) > 1, list[Inset]()
-        for one, box in zip(loose, self._layout.insets(len(loose)), strict=True):
-            self._insets.append(Inset(sheet, box, one, SMALL * u if several else u, one_of_several=several))
-            below = box[3]
-        self._words = x, y = self._layout.panel[0], below + round(18 * u)
-        sheet.write((x, y), f"force in {as_words(pin.name)}", 14 * u, anchor="left top")
-        on = "journal" if pin.is_loose else pin.pin.second.body.replace("_", " ")
-        sheet.write((x, y + 76 * u), f"on the {on}", 14 * u, anchor="left top")
-        force = readable("N", self._usual)
-        bar = 1.0 / round_up(1.0 / (force.scale * self._usual))  # the round number below it
-        tip = x + bar / force.scale * self._scale
-        sheet.arrow((x, y + 110 * u), (tip, y + 110 * u), CONTACT if pin.is_loose else IDEAL, 5.5 * u)
-        text = f"{format_round(bar)} {force.name}"
-        sheet.write((tip + 14 * u, y + 110 * u), text, 14 * u, anchor="left center")
-
-    def frame(self, machine: Picture, number: int) -> Picture:
-        """The frame of a number, around the picture of the machine."""
-        u, sheet = self._layout.unit, self._sheet
-        record = int(self._moments.records[number])
-        left, top, right, bottom = self._layout.picture
-        sheet.paste(machine, (left, top))
-        start, y = right - 64 * u, bottom - 14 * u
-        sheet.arrow((start, y), (right - 10 * u, y), INK, 2.5 * u)
-        sheet.write((start - 8 * u, y), "forward", 13 * u, anchor="right center")
-        for label in self._scene.labels(record):
-            colour = "#ffffff" if label.light else INK
-            sheet.write(self._seen(label.place), label.text, 15 * u, colour, "center center")
-        _, _, right, bottom = self._layout.line
-        text = f"t = {self._time[record]:.{self._moments.decimals}f} s"
-        clock = sheet.write((right, 0.66 * bottom), text, 22 * u, anchor="right baseline", bold=True)
-        before = right - sheet.width(clock) - 16 * u
-        sheet.write((before, 0.66 * bottom), self._moments.pace, 14 * u, FAINT, "right baseline")
+    def __init__(self, result: Result, size: tuple[int, int], pin: str | None, times: Times) -> None:
+        self._result, self._times, self._pins = result, times, pin_views(result, pin)
+        self._unit = unit = min(size[0] / USUAL[0], size[1] / USUAL[1])  # pixels to a unit of length
+        width, height = size[0] / unit, size[1] / unit
+        right, bottom = (width - PANEL - 2 * MARGIN, height - BELOW) if self._pins else (width, height)
+        self._stage = Stage(result, (round(right * unit), round((bottom - TOP) * unit)))
+        # a hundredth of a pixel more: sizes are cut to whole pixels
+        inches = (size[0] + 0.01) / (72 * unit), (size[1] + 0.01) / (72 * unit)
+        self._figure = Figure(inches, dpi=72 * unit, facecolor="white")
+        self._figure.set_layout_engine("none")
+        self._canvas: Any = FigureCanvasAgg(self._figure)  # matplotlib has no types of it
+        self._page = self._axes((0, 0, width, height))
+        self._page.set(xlim=(0, width), ylim=(height, 0))
+        self._page.set_axis_off()
+        self._moving: list[Artist] = []
+        self._write((MARGIN, 32), title(result.scenario, self._pins[0] if self._pins else None), 17)
+        self._write((right - 74, bottom - 14), "forward", 13, ha="right", va="center")
+        self._arrow((right - 64, bottom - 14), (54, 0), INK, 2.5)
+        self._right, self._bottom, self._insets = right, bottom, list[tuple[PinView, Point, float]]()
         if self._pins:
-            self._force(self._pins[0], record, number)
-        return sheet.frame()
+            self._draw_panel(width)
+            self._draw_strip((MARGIN + 58, bottom + 28, width - 2 * MARGIN, height - 30))
+        self._moving.clear()
 
-    def _seen(self, point: Sequence[float]) -> Point:
-        """The place on the frame of a point in space."""
-        x, y = self._camera.pixels(np.array([point]))[0].tolist()
-        return self._layout.picture[0] + x, self._layout.picture[1] + y
+    # --- what all frames have ---
 
-    def _force(self, pin: PinView, record: int, number: int) -> None:
-        """Draw arrows, numbers, journals and cursor."""
-        u, sheet, (left, top) = self._layout.unit, self._sheet, self._words
-        for one in (*self._pins[1:], pin):
-            self._arrow(one, record)
-        size = float(pin.size[record])
-        text = said_beside(size, "N", float(pin.size.max(initial=0.0)))
-        colour = INK if size > 0.0 else FAINT
-        sheet.write((left, top + 28 * u), text, 30 * u, colour, "left top", bold=True)
-        if self._cut(pin, record) < 1.0:
-            sheet.write((left, top + 126 * u), "the arrow is cut short", 13 * u, FAINT, "left top")
-        for inset in self._insets:
-            x, y = (self._scale * self._cut(inset.view, record) * inset.view.force[record]).tolist()
-            inset.draw(record, self._moments.back(number, TRAIL), (x, -y))
-        self._strip.cursor(float(self._time[record]), size)
+    def _axes(self, box: tuple[float, float, float, float]) -> Axes:
+        """Axes in a box: left, top, right and bottom."""
+        wide, high = (float(side) / self._unit for side in self._figure.bbox.size)
+        left, top, right, bottom = box
+        return self._figure.add_axes(
+            (left / wide, 1 - bottom / high, (right - left) / wide, (bottom - top) / high)
+        )
 
-    def _cut(self, pin: PinView, record: int) -> float:
-        """The share of a force whose arrow is drawn: 1, or less if it would be too long."""
-        return min(1.0, LONGEST / ARROW * self._usual / max(float(pin.size[record]), 1e-300))
+    def _draw_panel(self, width: float) -> None:
+        """Draw bores with the names of their pins, and what force is shown."""
+        loose, left = [one for one in self._pins if one.is_loose], width - MARGIN - PANEL
+        columns, below = max(1, math.ceil(math.sqrt(len(loose)))), TOP
+        side = (PANEL + GAP) / columns - GAP
+        for n, view in enumerate(loose):
+            x, y = left + n % columns * (side + GAP), TOP + n // columns * (side + GAP)
+            centre, radius = (x + 0.5 * side, y + 0.5 * side), 0.39 * side / RING
+            self._add(Rectangle((x, y), side, side, fc="#eef0f2"))
+            self._add(Circle(centre, RING * radius, fc=HOUSING))
+            self._add(Circle(centre, radius, fc="white"))
+            play = radius - view.enlarged(0, radius)[1]
+            self._add(Circle(centre, play, fill=False, ec="#9a9a9a", ls=(0, (3.0, 2.5)), zorder=2.5))
+            text = f"\u00d7 {format_round(view.enlargement)}"
+            if columns > 1:
+                self._write(
+                    (x + 4, y + 3), f"{as_words(view.name)} {text}", min(10, 13 / columns + 3), va="top"
+                )
+            else:
+                self._write((x + GAP, y + GAP), f"clearance {text}", 14, va="top", weight="bold")
+                carrier = view.pin.bore.body
+                words = f"bore in {'base' if carrier == GROUND else as_words(carrier)}"
+                self._write((x + GAP, y + side - GAP), words, 13, color=FAINT)
+            self._insets.append((view, centre, radius))
+            below = int(y + side)
+        pin = self._pins[0]
+        self._words = left, below + 18.0
+        self._write((left, below + 18), f"force in {as_words(pin.name)}", 14, va="top")
+        on = "journal" if pin.is_loose else as_words(pin.pin.second.body)
+        self._write((left, below + 94), f"on the {on}", 14, va="top")
 
-    def _arrow(self, pin: PinView, record: int) -> None:
-        """Draw the arrow of the force in the machine's picture, and a mark on the pin."""
-        u, (x, y) = self._layout.unit, self._seen(self._scene.front_of(pin, record))
-        force = self._cut(pin, record) * pin.force[record]
-        along = self._camera.arrow(np.array([*force, 0.0])) / self._camera.scale * self._scale
-        mark = IDEAL if not pin.is_loose else CONTACT if pin.closed[record] else FLIGHT
-        self._sheet.disc((x, y), 8.0 * u, mark, 1.5 * u)
-        tip = x + float(along[0]), y + float(along[1])
-        self._sheet.arrow((x, y), tip, CONTACT if pin.is_loose else IDEAL, 8.0 * u)
+    def _draw_strip(self, box: tuple[float, float, float, float]) -> None:
+        """Draw the force over time."""
+        pin, (first, last), time = self._pins[0], self._times.window, self._result.time
+        inside = (time >= first) & (time <= last)
+        self._usual = usual(pin.size[inside])
+        self._shown = readable("N", float(pin.size[inside].max(initial=0.0)))
+        force = self._shown.scale * pin.size[inside]
+        peak = float(force.max(initial=0.0))
+        self._top = min(CUT * usual(force), 1.08 * peak) if peak > 0.0 else 1.0
+        self._strip = axes = self._axes(box)
+        axes.set(xlim=(first, max(last, first + 1e-12)), ylim=(0.0, self._top))
+        axes.spines[:].set_visible(False)
+        axes.tick_params(labelsize=12, labelcolor=FAINT, color=FAINT)
+        axes.locator_params(axis="y", nbins=4)
+        axes.grid(axis="y", color="#c9c9c9")
+        axes.set_axisbelow(True)
+        self._write((box[0], box[1] - 9), f"force [{self._shown.name}] over time [s]", 13)
+        if peak > self._top:
+            words = f"cut off at {self._top:.3g} {self._shown.name}"
+            self._write((box[2], box[1] - 9), words, 12, color=FAINT, ha="right")
+        force = np.minimum(force, self._top)
+        if not pin.is_loose:
+            axes.plot(time[inside], force, color=IDEAL, lw=1.3)
+            return
+        closed = pin.closed[inside]
+        pressed = closed[1:] | closed[:-1]  # there is a force at one of both records
+        draw_pieces(axes, time[inside], force, pressed, (3.0, 1.3), solid_capstyle="butt", clip_on=False)
+        look: dict[str, Any] = {"frameon": False, "fontsize": 12, "ncols": 2, "borderaxespad": 0.0}
+        axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.02), **look)
+
+    # --- a frame ---
+
+    def frame(self, number: int) -> Picture:
+        """The frame of a number, RGB (height, width, 3)."""
+        record = int(nearest(self._result.time, self._times.frames[number : number + 1])[0])
+        picture = self._stage.image(record)
+        down = round(self._figure.bbox.height) - round(TOP * self._unit) - len(picture)
+        self._moving.append(self._figure.figimage(picture, 0, down, origin="upper", zorder=-1))
+        right = float(self._page.get_xlim()[1]) - MARGIN
+        decimals = min(7, max(3, math.ceil(-math.log10(max(self._times.step, 1e-9)) - 1e-9)))
+        clock = f"t = {self._result.time[record]:.{decimals}f} s"
+        self._write((right, 32), clock, 22, ha="right", weight="bold")
+        self._write((right - 16 - 13.5 * len(clock), 32), self._times.pace, 14, color=FAINT, ha="right")
+        for pin in reversed(self._pins):
+            self._draw_force(pin, record)
+        for view, centre, radius in self._insets:
+            self._draw_journal(view, centre, radius, record, number)
+        if self._pins:
+            size = float(self._pins[0].size[record])
+            text = said_beside(size, "N", float(self._pins[0].size.max(initial=0.0)))
+            place = self._words[0], self._words[1] + 28
+            self._write(place, text, 30, color=INK if size > 0.0 else FAINT, va="top", weight="bold")
+            time, force = self._result.time[record], min(self._shown.scale * size, self._top)
+            self._moving.append(self._strip.axvline(time, color=INK, lw=1.4))
+            dot: dict[str, Any] = {"ms": 9, "mfc": INK, "mec": "white", "clip_on": False, "zorder": 5}
+            self._moving += self._strip.plot(time, force, "o", **dot)
+        self._canvas.draw()
+        image = np.array(self._canvas.buffer_rgba())[:, :, :3]
+        for artist in self._moving:
+            artist.remove()
+        self._moving.clear()
+        return image
+
+    def arrow_of(self, pin: PinView, record: int) -> Series:
+        """The arrow of the force of a pin at a record, to the right and up, before it is turned (2,)."""
+        high = self._bottom - TOP
+        size = max(float(pin.size[record]), 1e-300)
+        length = min(ARROW * size / self._usual, LONGEST) * high
+        return np.asarray(length / size * pin.force[record])
+
+    def _draw_force(self, pin: PinView, record: int) -> None:
+        """Draw the arrow of a force in the picture of the machine, and a mark on the pin."""
+        x, y = self._stage.camera.pixels(np.array([self._stage.front_of(pin, record)]))[0] / self._unit
+        right, up, _ = VIEW.apply([*self.arrow_of(pin, record), 0.0])
+        colour = IDEAL if not pin.is_loose else CONTACT if pin.closed[record] else FLIGHT
+        self._add(Circle((x, y + TOP), 7.0, fc=colour, ec="white", lw=1.5, zorder=4))
+        self._arrow((x, y + TOP), (right, -up), colour, 8.0)
+
+    def _draw_journal(self, view: PinView, centre: Point, radius: float, record: int, number: int) -> None:
+        """Draw a journal in its bore with its trail and the force on it."""
+        times = self._times
+        past = max(times.frames[number] - TRAIL * times.rate * times.step, times.frames[0])
+        first = min(int(np.searchsorted(self._result.time, past)), record)
+        path, inner = view.enlarged(slice(first, record + 1), radius)
+        x, y = centre[0] + path[:, 0], centre[1] - path[:, 1]
+        at, before, closed = (float(x[-1]), float(y[-1])), view.closed[first:record], bool(view.closed[record])
+        self._add(Circle(at, inner, fc=JOURNAL))
+        for chosen, colour in ((~before, FLIGHT), (before, CONTACT)):
+            if chosen.any():
+                look: dict[str, Any] = {"color": colour, "lw": 2.0, "scalex": False, "scaley": False}
+                self._moving += self._page.plot(*pieces(x, y, chosen), zorder=3, **look)
+        self._add(Circle(at, 4.0, fc=CONTACT if closed else FLIGHT, ec="white", lw=1.2, zorder=5))
+        if closed:
+            force = self.arrow_of(view, record) * [1.0, -1.0]
+            force *= min(1.0, LONGEST_INSIDE * radius / max(float(np.hypot(*force)), 1e-9))
+            self._arrow(at, tuple(force.tolist()), CONTACT, 7.0)
+        if len(self._insets) == 1:
+            word, ink = ("contact", CONTACT) if closed else ("free flight", FLIGHT_TEXT)
+            corner = centre[0] + 0.5 * PANEL - GAP, centre[1] + 0.5 * PANEL - GAP
+            self._write(corner, word, 14, color=ink, ha="right", weight="bold")
+
+    # --- on the page ---
+
+    def _add(self, artist: Any) -> None:
+        self._moving.append(self._page.add_patch(artist))
+
+    def _write(self, place: Point, text: str, size: float, **look: Any) -> None:
+        self._moving.append(self._page.text(*place, text, size=size, **{"color": INK, **look}))
+
+    def _arrow(self, tail: Point, way: Point, colour: str, thick: float) -> None:
+        """Draw an arrow with a white edge, which is seen on anything, unless it is hardly longer than thick."""
+        length = math.hypot(*way)
+        if length > 1.8 * thick:
+            head, edge = min(4.2 * thick, 0.7 * length), withStroke(linewidth=0.7 * thick, foreground="white")
+            shape = {"head_length": head, "head_width": 0.84 * head, "length_includes_head": True}
+            self._add(FancyArrow(
+                *tail, *way, width=thick, fc=colour, lw=0.0, zorder=4.5, path_effects=[edge], **shape
+            ))  # fmt: skip
 
 
 def title(scenario: Scenario, pin: PinView | None) -> str:
@@ -188,138 +270,3 @@ def title(scenario: Scenario, pin: PinView | None) -> str:
         if more > 0:
             words.append(f"{more} {'more ' * (what == 'pin')}clearance {what}{'s' * (more > 1)}")
     return "  \u00b7  ".join(words)
-
-
-# --- a journal in its bore, and force over time ---
-
-RING = 1.2  # radius of what is drawn about the bore, of the bore's
-ROUNDING = 1e-6  # of the clearance
-LONGEST_INSIDE = 1.6  # of an arrow, in radii of the bore
-TRAIL = 0.25  # how long the trail of the journal's centre is, in seconds of the movie
-HOUSING, JOURNAL = to_hex(COLOURS[Role.BASE]), to_hex(COLOURS[Role.PIN])
-FLIGHT_TEXT = "#1c7fb5"  # sky blue is too light for letters
-CUT = 1.25  # how far the axis of forces goes beyond what is usual
-
-
-class Inset:
-    """The journal in its bore, with its clearance so much larger that it is seen; draws what does not change.
-
-    Arguments:
-        sheet: to draw on.
-        box: where, a square [pixels].
-        view: the clearance pin.
-        unit: the factor on lengths of a frame of 1280 x 720.
-        one_of_several: whether it names its pin, and has no room for more words.
-    """
-
-    def __init__(
-        self, sheet: Canvas, box: Box, view: PinView, unit: float, *, one_of_several: bool = False
-    ) -> None:
-        self._sheet, self._box, self.view, self._unit = sheet, box, view, unit
-        left, top, right, bottom = box
-        self.centre: Point = (0.5 * (left + right), 0.5 * (top + bottom) + 2 * unit)  # of the bore
-        self._radius, gap = 0.5 * (right - left - 62 * unit) / RING, 8 * unit
-        style = f"round,pad=0,rounding_size={6 * unit}"
-        sheet.add(FancyBboxPatch((left, top), right - left, bottom - top, style, fc="#eef0f2", lw=0.0))
-        sheet.disc(self.centre, RING * self._radius, HOUSING)
-        sheet.disc(self.centre, self._radius, "#ffffff")
-        self.title = (
-            f"{as_words(view.name) if one_of_several else 'clearance'} \u00d7 {format_round(view.enlargement)}"
-        )
-        room = right - left - 2 * gap
-        sheet.write((left + gap, top + gap), self.title, 14 * unit, anchor="left top", bold=True, room=room)
-        if not one_of_several:
-            carrier = view.pin.bore.body
-            carrier = "base" if carrier == GROUND else as_words(carrier)
-            sheet.write((left + gap, bottom - gap), f"bore in {carrier}", 13 * unit, FAINT)
-
-    def draw(self, record: int, first: int, force: Point) -> None:
-        """Draw the journal at a record.
-
-        Arguments:
-            first: record at which the trail begins.
-            force: arrow of the force on the journal, to the right and down [pixels].
-        """
-        u, view, sheet, (x0, y0) = self._unit, self.view, self._sheet, self.centre
-        path, inner = view.enlarged(slice(first, record + 1), self._radius)
-        x, y, play = x0 + path[:, 0], y0 - path[:, 1], self._radius - inner
-        at = float(x[-1]), float(y[-1])
-        sheet.disc(at, inner, JOURNAL)
-        sheet.add(Circle(self.centre, play, fill=False, ec="#9a9a9a", lw=1.2 * u, ls=(0, (3.0, 2.5))))
-        before = view.closed[first:record]
-        for chosen, colour in ((~before, FLIGHT), (before, CONTACT)):
-            if chosen.any():
-                sheet.line(*pieces(x, y, chosen), colour, 2.0 * u)
-        closed = bool(view.closed[record])
-        colour, word, ink = (CONTACT, "contact", CONTACT) if closed else (FLIGHT, "free flight", FLIGHT_TEXT)
-        if closed:
-            tail, shorter = at, min(1.0, LONGEST_INSIDE * self._radius / max(math.hypot(*force), 1e-9))
-            if (away := math.dist(at, self.centre)) >= (1.0 - ROUNDING) * play:  # on the wall, not tilted
-                out = self._radius / away
-                tail = x0 + out * (at[0] - x0), y0 + out * (at[1] - y0)
-                sheet.disc(tail, 6.0 * u, CONTACT, 1.2 * u)
-            sheet.arrow(tail, (tail[0] + shorter * force[0], tail[1] + shorter * force[1]), CONTACT, 7.0 * u)
-        sheet.disc(at, 4.0 * u, colour, 1.2 * u)
-        place = self._box[2] - 8 * u, self._box[3] - 8 * u
-        sheet.write(place, word, 14 * u, ink, "right baseline", bold=True)
-
-
-class Strip:
-    """Force over time, with a cursor at the time of the frame; draws all but the cursor.
-
-    Arguments:
-        sheet: to draw on.
-        box: of the axes [pixels].
-        time: of the shown records [s].
-        pin: whose force it is; inside: which of its records are shown.
-        span: of the frames, from and to [s].
-        unit: the factor on lengths of a frame of 1280 x 720.
-    """
-
-    def __init__(
-        self, sheet: Canvas, box: Box, time: Series, pin: PinView, inside: np.ndarray,
-        span: tuple[float, float], unit: float,
-    ) -> None:  # fmt: skip
-        self._sheet, self._box, self._unit, self._start = sheet, box, unit, span[0]
-        self._length = max(span[1] - span[0], 1e-12)
-        self._shown = shown = readable("N", float(pin.size[inside].max(initial=0.0)))
-        force = shown.scale * pin.size[inside]
-        peak = float(force.max(initial=0.0))
-        self._top = top = min(CUT * usual(force), 1.08 * peak) if peak > 0.0 else 1.0
-        axes, small, high = sheet.axes_in(box), max(SMALLEST_FONT, 12 * unit), box[1] - 9 * unit
-        axes.set(xlim=(span[0], span[0] + self._length), ylim=(0.0, top))
-        axes.xaxis.set_major_locator(MaxNLocator(10, steps=STEPS))
-        axes.yaxis.set_major_locator(MaxNLocator(4, steps=STEPS))
-        axes.xaxis.set_major_formatter(lambda x, _: f"{x:.6g}")
-        axes.yaxis.set_major_formatter(lambda y, _: format_round(y))
-        axes.spines[:].set_visible(False)
-        axes.tick_params(labelsize=small, labelcolor=FAINT, color=FAINT, pad=4 * unit, width=unit)
-        axes.tick_params("y", length=0.0)
-        axes.grid(axis="y", color=RULE, lw=max(1.0, unit))
-        axes.set_axisbelow(True)
-        name = sheet.write((box[0], high), f"force [{shown.name}] over time [s]", 13 * unit)
-        if peak > top:  # without the peak, which records miss: the page of the run has it
-            text = f"cut off at {top:.3g} {shown.name}"
-            sheet.write((box[2], high), text, 12 * unit, FAINT, "right baseline")
-        force = np.minimum(force, top)
-        if not pin.is_loose:
-            axes.plot(time, force, color=IDEAL, lw=1.3 * unit)
-            return
-        handles = [Patch(fc=CONTACT, label="contact"), Patch(fc=FLIGHT, label="free flight")]
-        axes.legend(
-            handles=handles, loc="center left", bbox_to_anchor=(box[0] + sheet.width(name) + 12 * unit, high),
-            ncols=2, bbox_transform=sheet.axes.transData, frameon=False, fontsize=small, handlelength=1.4,
-            handleheight=0.3, handletextpad=0.5, columnspacing=1.5, labelcolor=INK,
-        )  # fmt: skip
-        closed = pin.closed[inside]
-        pressed = closed[1:] | closed[:-1]  # there is a force at one of both records
-        widths = (3.0 * unit, 1.3 * unit)
-        draw_pieces(axes, time, force, pressed, widths, solid_capstyle="butt", clip_on=False)
-
-    def cursor(self, time: float, force: float) -> None:
-        """Draw the cursor at a time [s], with a dot at the force [N]."""
-        u, (left, top, right, bottom) = self._unit, self._box
-        x = left + (time - self._start) / self._length * (right - left)
-        y = bottom - min(self._shown.scale * force / self._top, 1.0) * (bottom - top)
-        self._sheet.line((x, x), (top, bottom), INK, 1.4 * u)
-        self._sheet.disc((x, y), 4.5 * u, INK, 1.2 * u)

@@ -1,7 +1,8 @@
 """Frames and movies of a run, as files and as pictures."""
 
-import os
+import math
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -10,36 +11,27 @@ from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
 from support_exudyn.files.whole_file import whole_file
+from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.postprocessing.export.whole_set import whole_set
-from support_exudyn.postprocessing.render import movie as movies
-from support_exudyn.postprocessing.render.frame import Layout, Painter
-from support_exudyn.postprocessing.render.movie import Moments, moment, moments
-from support_exudyn.postprocessing.render.pin_views import pin_views
-from support_exudyn.postprocessing.render.scene import RenderedScene
-from support_exudyn.postprocessing.render.stage import Picture, Stage
+from support_exudyn.postprocessing.render.frame import Painter, Times
+from support_exudyn.postprocessing.render.stage import Picture
 from support_exudyn.scene.contract import Progress, silent
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
 
-SIZE = (1280, 720)
-OF_GIF = (960, 540)  # GIFs are no wider
-SEEN = 0.25  # pixels by which something has to move before it is drawn anew
+SIZE, STILL = (960, 540), (1280, 720)  # of frames, of single pictures
 SMALLEST, LARGEST = (320, 180), (3840, 2160)
-RATE = 25.0
-FRAMES_SHARE = 0.85  # of the time that is spent before the movie
+RATE, FASTEST = 25.0, 50.0  # frames a second; players show faster GIFs later
+MOST_FRAMES = 2000  # the GIF is made in memory
 NAME, FRAME = "frame_{:04d}.png", re.compile(r"frame_\d{4,}\.png")
-QUICKLY = 3  # compression of PNG
 MAKER = "support_exudyn"  # stands in every frame, so that no picture of another program is removed
+COLOURS, SAMPLED = 256, 5  # of a GIF, and frames by which they are chosen
+WIDEST = 960  # pixels of a GIF; larger frames are shrunk
 
 
 @dataclass(frozen=True)
 class Rendered:
-    """The files that were written.
-
-    Arguments:
-        frames: files of the frames, in their order.
-        movie: file of the movie; None: there is none.
-    """
+    """The files that were written: frames in their order, and the movie; None: there is none."""
 
     frames: tuple[Path, ...]
     movie: Path | None
@@ -53,27 +45,24 @@ def render(
     after: float | None = None,
     until: float | None = None,
     speed: float = 1.0,
-    movie: str = "gif",
-    movie_path: str | Path | None = None,
-    size: tuple[int, int] | None = None,
+    movie: bool = True,
+    size: tuple[int, int] = SIZE,
     pin: str | None = None,
     progress: Progress = silent,
 ) -> Rendered:
-    """Write frames of a run to a folder, and a movie of them.
+    """Write frames of a run to a folder, and next to it a movie of them, GIF.
 
     Each frame shows the record that is next to its time. Frames of earlier movies in the folder are replaced;
     all of it takes its place when all is done, and after an error or an interruption all is as it was.
 
     Arguments:
         result: the run; all bodies and the shown pin have to be recorded.
-        folder: for frame_0000.png and so on.
-        frames_per_second: of the movie, 0.1 to 240.
+        folder: for frame_0000.png and so on. The movie is called as it is, without "_frames".
+        frames_per_second: of the movie, 0.1 to 50.
         after, until: of the movie in the run's time [s]; None: of the run.
         speed: seconds of the run in a second of the movie: 0.01 for impacts, a hundred times slower.
-        movie: "gif", "mp4" (needs the extra [movie]) or "none".
-        movie_path: None: the folder's name with the movie's ending, without "_frames".
-        size: width and height of frames [pixels], even, 320 x 180 to 3840 x 2160; None: 960 x 540 of a GIF,
-            else 1280 x 720.
+        movie: whether the GIF is made.
+        size: width and height of frames [pixels], even, 320 x 180 to 3840 x 2160.
         pin: whose force is shown, and its journal first of all clearance pins; None: the first clearance pin,
             or the first of all.
         progress: is called with the share that is done.
@@ -82,31 +71,26 @@ def render(
     cannot be written.
     """
     folder = Path(folder)
-    shown = moments(result.time, after, until, frames_per_second, speed)
-    movies.check(movie, frames_per_second, shown.times.size)
-    target = None
-    if movie != "none":
-        usual = folder.with_name(f"{folder.name.removesuffix('_frames') or folder.name}.{movie}")
-        target = usual if movie_path is None else Path(movie_path)
-    show = _Show(result, size or (OF_GIF if movie == "gif" else SIZE), pin, shown)
-    names = [NAME.format(n) for n in range(shown.times.size)]
+    times = _times(result.time, after, until, frames_per_second, speed)
+    painter = _painter(result, size, pin, times)
+    names = [NAME.format(n) for n in range(times.frames.size)]
     earlier = [old.name for old in folder.glob("*") if FRAME.fullmatch(old.name) and _is_ours(old)]
-    share = FRAMES_SHARE if target else 1.0
+    target = folder.with_name(f"{folder.name.removesuffix('_frames') or folder.name}.gif") if movie else None
+    maker = PngInfo()
+    maker.add_text("Software", MAKER)
     with whole_set(folder, names, earlier) as made:
         paths = [made / name for name in names]
         for n, path in enumerate(paths):
-            maker = PngInfo()
-            maker.add_text("Software", MAKER)
-            Image.fromarray(show.frame(n)).save(path, format="PNG", compress_level=QUICKLY, pnginfo=maker)
-            progress(share * (n + 1) / len(paths))
+            Image.fromarray(painter.frame(n)).save(path, format="PNG", compress_level=3, pnginfo=maker)
+            progress((n + 1) / (len(paths) + bool(movie)))
         if target is not None:
             with whole_file(target) as temporary:
-                rest = 1.0 - share
-                movies.write(movie, temporary, paths, frames_per_second, lambda s: progress(share + rest * s))
+                _write_gif(temporary, paths, frames_per_second)
+    progress(1.0)
     return Rendered(tuple(folder / name for name in names), target)
 
 
-def still(result: Result, time: float, *, size: tuple[int, int] = SIZE, pin: str | None = None) -> Picture:
+def still(result: Result, time: float, *, size: tuple[int, int] = STILL, pin: str | None = None) -> Picture:
     """A single frame as an array (height, width, 3) of RGB from 0 to 255.
 
     Arguments:
@@ -116,33 +100,62 @@ def still(result: Result, time: float, *, size: tuple[int, int] = SIZE, pin: str
 
     Raises InputError if the run does not reach the time, or as `render` does.
     """
-    return _Show(result, size, pin, moment(result.time, time)).frame(0)
+    first, last = float(result.time[0]), float(result.time[-1])
+    _check("time", time, first, last, " s")
+    step = min([1e-3, *np.diff(result.time)])
+    return _painter(result, size, pin, Times(np.array([time]), step, 1.0, (first, last))).frame(0)
 
 
-class _Show:
-    """A run on its stage, with the painter of its frames."""
+def _painter(result: Result, size: tuple[int, int], pin: str | None, times: Times) -> Painter:
+    for name, number, low, high in zip(("width", "height"), size, SMALLEST, LARGEST, strict=True):
+        if not low <= number <= high or number % 2:
+            raise InputError(f"size: {name} = {number} pixels: allowed: even, from {low} to {high}")
+    return Painter(result, size, pin, times)
 
-    def __init__(self, result: Result, size: tuple[int, int], pin: str | None, shown: Moments) -> None:
-        for name, number, low, high in zip(("width", "height"), size, SMALLEST, LARGEST, strict=True):
-            if not low <= number <= high or number % 2:
-                raise InputError(f"size: {name} = {number} pixels: allowed: even, from {low} to {high}")
-        self._scene, self._records = RenderedScene(result), shown.records
-        views = pin_views(result, pin)
-        layout = Layout(*size, bool(views))
-        left, top, right, bottom = layout.picture
-        self._camera = camera = self._scene.camera(right - left, bottom - top)
-        threads = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-        self._stage = Stage(self._scene.items(), camera, threads)
-        self._painter = Painter(self._scene, layout, camera, views, shown)
-        self._traced: tuple[np.ndarray, Picture] | None = None
 
-    def frame(self, number: int) -> Picture:
-        """A whole frame; the machine is that of an earlier one if nothing has visibly moved since."""
-        record = int(self._records[number])
-        where = self._camera.pixels(self._scene.corners(record))
-        if self._traced is None or np.abs(where - self._traced[0]).max() > SEEN:
-            self._traced = where, self._stage.image(self._scene.places(record))
-        return self._painter.frame(self._traced[1], number)
+def _times(time: Series, after: float | None, until: float | None, rate: float, speed: float) -> Times:
+    """The times of frames between two times of a run. Raises InputError if something is out of its range."""
+    first, last = float(time[0]), float(time[-1])
+    after, until = (first if after is None else after), (last if until is None else until)
+    _check("frames_per_second", rate, 0.1, FASTEST, "")
+    _check("speed", speed, 1e-6, 1e3, "")
+    _check("after", after, first, last, " s")
+    _check("until", until, first, last, " s")
+    if until <= after and time.size > 1:
+        raise InputError(f"until = {until} s: allowed: later than the first frame, at {after} s")
+    step = speed / rate
+    number = math.floor((until - after) / step + 1e-9) + 1
+    if number > MOST_FRAMES:
+        raise InputError(
+            f"{number} frames from {after} to {until} s at {rate:g} a second and speed {speed:g}; allowed: "
+            f"up to {MOST_FRAMES}. Take a shorter time, a higher speed or fewer frames a second"
+        )
+    return Times(after + step * np.arange(number, dtype=np.float64), step, rate, (after, until))
+
+
+def _check(name: str, number: float, low: float, high: float, unit: str) -> None:
+    if not low <= number <= high:
+        raise InputError(f"{name} = {number:g}{unit}: allowed: {low:g} to {high:g}{unit}")
+
+
+def _write_gif(path: Path, frames: Sequence[Path], rate: float) -> None:
+    """Write a GIF with one palette, without dots in between, so that what stands still costs nothing."""
+
+    def shrunk(frame: Path) -> Image.Image:
+        with Image.open(frame) as opened:
+            picture = opened.convert("RGB")
+        picture.thumbnail((WIDEST, WIDEST), Image.Resampling.LANCZOS)
+        return picture
+
+    samples = [frames[n] for n in np.unique(np.linspace(0, len(frames) - 1, SAMPLED).astype(int))]
+    sample = Image.fromarray(np.concatenate([np.asarray(shrunk(one)) for one in samples]))
+    palette = sample.quantize(COLOURS, method=Image.Quantize.MEDIANCUT)
+    first, *others = (shrunk(one).quantize(palette=palette, dither=Image.Dither.NONE) for one in frames)
+    # hundredths of a second that add up to the movie's length
+    ends = np.round(100.0 * np.arange(len(frames) + 1) / rate).astype(int)
+    durations = (10 * np.diff(ends)).tolist()
+    with path.open("wb") as file:
+        first.save(file, format="GIF", save_all=True, append_images=others, duration=durations, loop=0)
 
 
 def _is_ours(path: Path) -> bool:
