@@ -19,7 +19,7 @@ from markupsafe import Markup, escape
 
 from studies.common.words import REFERENCE, JudgedClaim
 from studies.reporting.content import ReportSection, around_chapters
-from support_exudyn.postprocessing.page import live_html
+from support_exudyn.postprocessing.page.live import html
 from support_exudyn.postprocessing.page.pieces import FileLink, ShownFigure, ShownTable, image, templates
 
 PAGE, APPENDIX = "report.html", "appendix.html"
@@ -115,7 +115,7 @@ class Arrangement:
             f"{study}/{stem}": live for study, one in self.by_name.items() for stem, live in one.live.items()
         }
         self.live = {
-            file: live_html.html({name: live for name, live in of_all.items() if self.places[name][0] == file})
+            file: html({name: live for name, live in of_all.items() if self.places[name][0] == file})
             for file in (PAGE, APPENDIX)
         }
 

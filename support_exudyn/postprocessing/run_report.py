@@ -19,8 +19,7 @@ from support_exudyn.postprocessing.figures.linkage_drawing import machine_drawin
 from support_exudyn.postprocessing.figures.of_runs import usual
 from support_exudyn.postprocessing.figures.selection import machine_name, matching
 from support_exudyn.postprocessing.joint_tables import hardest_pressed, pressure_table
-from support_exudyn.postprocessing.page.live import LiveFigure, of_drawing
-from support_exudyn.postprocessing.page.live_html import html
+from support_exudyn.postprocessing.page.live import LiveFigure, html, of_drawing
 from support_exudyn.postprocessing.page.pieces import Sheet, ShownFigure, ShownTable, image, templates
 from support_exudyn.postprocessing.result_table import ResultTable
 from support_exudyn.postprocessing.shown_numbers import label

@@ -17,8 +17,7 @@ from support_exudyn.postprocessing.comparing.files_compared import ComparedPair,
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.figures.channels import Curve, draw_panels, label_values
 from support_exudyn.postprocessing.figures.units import amount, readable
-from support_exudyn.postprocessing.page.live import of_drawing
-from support_exudyn.postprocessing.page.live_html import html
+from support_exudyn.postprocessing.page.live import html, of_drawing
 from support_exudyn.postprocessing.page.pieces import ShownFigure, ShownTable, image, templates
 from user_forces.values.value import InputError
 
