@@ -30,7 +30,7 @@ from support_exudyn.formulations.exudyn.solver import solver
 from support_exudyn.mechanics.body_motion import rotation
 from support_exudyn.postprocessing.export.solution_file import euler_parameters, rows
 from support_exudyn.postprocessing.look.poses import Poses
-from support_exudyn.postprocessing.viewer.viewer_model import POSITION, SHOWN, model_for_viewer
+from support_exudyn.postprocessing.viewer.view import POSITION, SHOWN, ViewerModel
 from tests.cases.run_cases import loose_slider_crank, loose_support, support
 
 STROKE, TIME = 0.02, 0.05  # [m], [s]
@@ -132,10 +132,7 @@ def test_the_engines_model_is_where_the_run_was(name: str, tmp_path: Path) -> No
             assert there[1] == pytest.approx(result[f"{point}.y"][row], rel=0.0, abs=1e-13)
 
 
-# --- formats ---
-
-
-# --- whole or not at all ---
+# --- the command ---
 
 
 def run_command(scenario: Scenario, folder: Path, solution: Path) -> int:
@@ -159,7 +156,7 @@ def test_channels_that_it_needs_are_asked_for_before_the_run(
 @pytest.mark.parametrize("name", ["exudyn", "space", "crank"])
 def test_surfaces_and_columns_are_where_the_run_was(name: str) -> None:
     result = risen(name)
-    shown, poses = model_for_viewer(result.scenario), Poses(result)
+    shown, poses = ViewerModel.of(result.scenario), Poses(result)
     record = result.time.size - 1
     try:
         SetSolutionState(shown.scene.mbs, rows(result, shown.scene), record, SHOWN)

@@ -1,89 +1,126 @@
 """Exudyn's solution viewer on a run: its model with the look of the machine, moving as it did."""
 
-import subprocess
+import os
 import sys
-import tempfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from importlib.util import find_spec
 from math import pi
 from pathlib import Path
 from typing import Any
 
 import exudyn
 import numpy as np
+from exudyn import graphics
 from exudyn.basicUtilities import SetSolutionState
+from exudyn.itemInterface import ObjectGround, VObjectGround
 
 from support_exudyn.formulations.engine_settings import quiet_engine
+from support_exudyn.formulations.exudyn.scene.engine_scene import INITIAL, EngineScene
+from support_exudyn.formulations.exudyn.scene.scene_builder import build
+from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.model.linkage import GROUND
 from support_exudyn.postprocessing.export.solution_file import Solution, check_fits, read_solution, rows
 from support_exudyn.postprocessing.figures.selection import machine_name
-from support_exudyn.postprocessing.render.pin_views import pin_views
-from support_exudyn.postprocessing.viewer.viewer_model import SHOWN, ViewerModel, model_for_viewer
+from support_exudyn.postprocessing.look import looks
+from support_exudyn.postprocessing.look.poses import Poses, axes_along
+from support_exudyn.postprocessing.look.shapes import COLOURS, Look, Shape
+from support_exudyn.postprocessing.render.stage import engine_surface
+from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.provenance import installed
 from support_exudyn.simulation.result import Result
-from user_forces.values.value import InputError, short
+from user_forces.values.value import InputError, Vector3, short
 
-# --- whether the engine can open a window here, tried in a process of its own ---
-
-LONGEST = 120.0  # [s] that trying may take, of a slow machine or a distant display
-TRY = """
-import tkinter
-tkinter.Tk().destroy()
-import exudyn
-container = exudyn.SystemContainer()
-container.visualizationSettings.view0.window.showWindow = False
-container.visualizationSettings.view0.window.renderWindowSize = [64, 64]
-container.renderer.Start()
-active = container.renderer.IsActive()
-container.renderer.Stop()
-if not active:
-    raise SystemExit("the engine's window did not open")
-"""
+Graphics = dict[str, Any]  # of the engine
+SHOWN = exudyn.ConfigurationType.Visualization
+POSITION = exudyn.OutputVariableType.Position
 INSTEAD = (
-    "Allowed: a desktop with OpenGL, and tkinter (on Debian: apt-get install python3-tk); "
+    "allowed: a desktop with OpenGL, and tkinter (on Debian: apt-get install python3-tk); "
     "`python -m support_exudyn render RUN` writes pictures without a window, and "
     "`xvfb-run -a python -m support_exudyn view RUN` opens the window on a display in memory"
 )
+MADE_WITH = ("exudyn", "support-exudyn")  # packages on which the model depends
+WINDOW = (1200, 750)  # width and height [pixels]
+FRAME, LASTS = 0.04, 10.0  # [s] of a frame, and that a run takes in the viewer by default
+MOST_SKIPPED = 200  # rows from frame to frame, as many as the viewer's slider has
+MOST_STATES = 60  # by which the camera is set
+MARGIN, WORDS = 1.15, 0.15  # of what is seen over what the machine needs; of the height, for the engine's text
+FROM_THE_SIDE = [0.0, pi, 0.0]  # rotation vector: the view is along +z, with the goaf (-x) on the right
 
 
 class NoDisplayError(OSError):
     """The error of a window that cannot be opened here; its text says why and what to do."""
 
 
-def check_display() -> None:
-    """Raise NoDisplayError, which says why and what to do, unless the engine can open its windows."""
-    for name in ("suppressRenderer", "suppressSolutionViewer", "suppressDialogs"):
-        if getattr(exudyn.special.userInterface, name):
-            raise NoDisplayError(
-                f"no window: exudyn.special.userInterface.{name} is set, perhaps by the variable "
-                "EXUDYN_SUPPRESS_UI_WINDOW_OPEN; allowed: windows where neither is"
-            )
-    with tempfile.TemporaryDirectory() as folder:  # where a crash may leave files
-        try:
-            tried = subprocess.run(
-                [sys.executable, "-c", TRY], cwd=folder, stdin=subprocess.DEVNULL, capture_output=True,
-                text=True, errors="replace", timeout=LONGEST,
-            )  # fmt: skip
-        except subprocess.TimeoutExpired:
-            raise NoDisplayError(f"no window opened within {LONGEST:g} s. {INSTEAD}") from None
-    if tried.returncode:
-        lines = (
-            f"engine ended with code {tried.returncode}\n{tried.stdout}\n{tried.stderr}".strip().splitlines()
-        )
-        raise NoDisplayError(f"no window can be opened here: {lines[-1].strip()}. {INSTEAD}")
+# --- the model with its look ---
+
+
+@dataclass(frozen=True)
+class ViewerModel:
+    """The engine's model of a scenario with the look of its machine; the equations stay those that run.
+
+    scene: the model; its `release` ends it. look: all that is drawn of the machine.
+    """
+
+    scene: EngineScene
+    look: Look
+
+    @staticmethod
+    def of(scenario: Scenario) -> "ViewerModel":
+        """The model of a scenario. Only what is drawn is added: surfaces, and bodies of the ground."""
+        model = ViewerModel(build(scenario), looks.look(scenario))
+        mbs = model.scene.mbs
+        for name, item in model.scene.bodies.items():
+            mbs.SetObjectParameter(item.object, "VgraphicsData", model.fixed(name))
+        mbs.AddObject(ObjectGround(visualization=VObjectGround(graphicsData=model.fixed(GROUND))))
+        moving = model.moving()
+
+        def drawn(*_: Any) -> list[Graphics]:
+            return [part() for part in moving]
+
+        mbs.AddObject(ObjectGround(visualization=VObjectGround(graphicsDataUserFunction=drawn)))
+        kept = mbs.systemData.GetSystemState(INITIAL)  # which assembling would set back
+        mbs.Assemble()
+        mbs.systemData.SetSystemState(kept, INITIAL)
+        return model
+
+    def place(self, body: str, point: Vector3) -> Series:
+        """The place of a point of the start posture in the state that is shown [m]."""
+        if body == GROUND:
+            return np.array(point)
+        item, local = self.scene.bodies[body].object, np.array(point) - self._centre(body)
+        return np.array(self.scene.mbs.GetObjectOutputBody(item, POSITION, local, SHOWN))
+
+    def _centre(self, body: str) -> Series:
+        """A body's centre of mass in the start posture (3,) [m]; zero of the ground."""
+        if body == GROUND:
+            return np.zeros(3)
+        return np.array([*self.scene.bodies[body].body.centre, 0.0][:3])
+
+    def fixed(self, body: str) -> list[Graphics]:
+        """The graphics data of a body's shapes, from its centre of mass."""
+        own = [engine_surface(shape.mesh, COLOURS[shape.role]) for shape in self.look.of(body)]
+        return [graphics.Move(surface, -self._centre(body)) for surface in own]
+
+    def moving(self) -> list[Callable[[], Graphics]]:
+        """The graphics data of the shapes of struts; called, they are where the shown state has them."""
+
+        def part(shape: Shape) -> Callable[[], Graphics]:
+            surface, strut = engine_surface(shape.mesh, COLOURS[shape.role]), shape.strut
+
+            def placed() -> Graphics:
+                assert strut is not None  # of which this is a part
+                ends = [self.place(*end) for end in strut.ends]
+                moved: Graphics = graphics.Move(surface, ends[shape.end], axes_along(ends[1] - ends[0]))
+                return moved
+
+            return placed
+
+        return [part(shape) for shape in self.look.shapes if shape.strut]
 
 
 # --- the viewer ---
-
-MADE_WITH = ("exudyn", "support-exudyn")  # packages on which the model depends
-WINDOW = (1200, 750)  # width and height [pixels]
-FRAME = 0.04  # [s]
-LASTS = 10.0  # [s] that a run takes in the viewer by default
-MOST_SKIPPED = 200  # rows from frame to frame, as many as the viewer's slider has
-MOST_STATES = 60  # by which the camera is set
-MARGIN = 1.15  # of what is seen, over what the machine needs
-WORDS = 0.15  # of the window's height, on top, where the engine writes name and time
-FROM_THE_SIDE = [0.0, pi, 0.0]  # rotation vector: the view is along +z, with the goaf (-x) on the right
 
 
 def open_viewer(
@@ -109,7 +146,7 @@ def open_viewer(
         step = max(1, min(step, MOST_SKIPPED, count))
         SolutionViewer(
             shown.model.scene.mbs, shown.solution, rowIncrement=step, timeout=FRAME, runMode=0,
-            title=f"{title(result, name)}: solution viewer",
+            title=f"{_title(result, name)}: solution viewer",
         )  # fmt: skip
 
 
@@ -143,22 +180,6 @@ class Window:
         return np.array(self.model.scene.container.renderer.RedrawAndGetImage())
 
 
-def _camera(model: ViewerModel, solution: Solution, size: tuple[int, int]) -> tuple[float, list[float]]:
-    """Half the height that is seen at all rows [m], and the centre of the view in the screen's axes [m]."""
-    corners = [model.corners]
-    for row in np.unique(np.linspace(0, solution["nRows"] - 1, MOST_STATES).astype(int)):
-        SetSolutionState(model.scene.mbs, solution, int(row), SHOWN)
-        for shape in model.look.shapes:
-            box = [(shape.body, point) for point in shape.mesh.bounding_box.vertices.tolist()]
-            ends = box if shape.strut is None else shape.strut.ends
-            corners.append(np.array([model.place(body, point) for body, point in ends]))
-    points = np.concatenate(corners)
-    low, high = points.min(axis=0), points.max(axis=0)
-    high[1] = low[1] + (high[1] - low[1]) / (1.0 - WORDS)
-    (x, y, z), (width, height, _) = 0.5 * (low + high), high - low
-    return 0.5 * MARGIN * max(height, width * size[1] / size[0]), [-x, y, -z]
-
-
 @contextmanager
 def window(
     result: Result, *, solution: str | Path | None = None, name: str = "", size: tuple[int, int] = WINDOW
@@ -175,21 +196,19 @@ def window(
                 file=sys.stderr,
             )
     read = None if solution is None else read_solution(solution)
-    try:
-        views = pin_views(result)
-    except InputError:  # not recorded
-        views = []
-    model = model_for_viewer(result.scenario, views, result.time)
+    model = ViewerModel.of(result.scenario)
     container = model.scene.container
     try:
         if read is not None and solution is not None:
             check_fits(read, model.scene, solution)
-        check_display()
+        _check_display()
         shown = Window(model, rows(result, model.scene) if read is None else read)
-        _prepare(container.visualizationSettings, title(result, name), size)
-        zoom, centre = _camera(model, shown.solution, size)
+        _prepare(container.visualizationSettings, _title(result, name), size)
         with quiet_engine():
             container.renderer.Start()
+            if not container.renderer.IsActive():
+                raise NoDisplayError(f"no window: the engine's window did not open; {INSTEAD}")
+            zoom, centre = _camera(result, model.look, size)
             container.renderer.SetModelView(zoom, FROM_THE_SIDE, centre)
             shown.show(0)
             yield shown
@@ -199,7 +218,36 @@ def window(
         model.scene.release()
 
 
-def title(result: Result, name: str = "") -> str:
+def _check_display() -> None:
+    """Raise NoDisplayError unless windows can be opened here, as far as it is known before."""
+    for name in ("suppressRenderer", "suppressSolutionViewer", "suppressDialogs"):
+        if getattr(exudyn.special.userInterface, name):
+            raise NoDisplayError(
+                f"no window: exudyn.special.userInterface.{name} is set, perhaps by the variable "
+                "EXUDYN_SUPPRESS_UI_WINDOW_OPEN; allowed: windows where neither is"
+            )
+    if sys.platform == "linux" and not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
+        raise NoDisplayError(f"no window: there is no display here; {INSTEAD}")
+    if find_spec("tkinter") is None:
+        raise NoDisplayError(f"no window: tkinter is not installed; {INSTEAD}")
+
+
+def _camera(result: Result, look: Look, size: tuple[int, int]) -> tuple[float, list[float]]:
+    """Half the height that is seen at all records [m], and the centre of the view in the screen's axes [m]."""
+    records, poses = np.unique(np.linspace(0, result.time.size - 1, MOST_STATES).astype(int)), Poses(result)
+    corners = [
+        poses.frame(shape, int(record)).points(shape.mesh.bounding_box.vertices)
+        for record in records
+        for shape in look.shapes
+    ]
+    points = np.concatenate(corners)
+    low, high = points.min(axis=0), points.max(axis=0)
+    high[1] = low[1] + (high[1] - low[1]) / (1.0 - WORDS)
+    (x, y, z), (width, height, _) = 0.5 * (low + high), high - low
+    return 0.5 * MARGIN * max(height, width * size[1] / size[0]), [-x, y, -z]
+
+
+def _title(result: Result, name: str) -> str:
     """A run in a few words."""
     space = "in space" if result.scenario.dimensions == 3 else "in the plane"
     formulation = result.scenario.formulation
