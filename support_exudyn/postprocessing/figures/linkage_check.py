@@ -46,7 +46,9 @@ def check_figure(report: CheckReport) -> Figure:
     if len(ways) == 1:
         angles = report.transmission[ways[0].drive]
         wide = 2 if angles else 3
-        _pins(drawing.add_subplot(grid[1, :wide]), ways[0])
+        moved, pins = ways[0].moved, report.linkage.pins
+        forces = {name: [float(np.hypot(*one.forces.pins[name])) for one in moved] for name in pins}
+        _curves(drawing.add_subplot(grid[1, :wide]), ways[0], "static force in pins", "force", forces, "N")
         _holding(drawing.add_subplot(grid[1, wide : 2 * wide]), ways[0])
         if angles:
             curves = {f"{as_words(one.pin)}: {as_words(one.output)}": np.degrees(one.angles) for one in angles}
@@ -62,7 +64,7 @@ def check_figure(report: CheckReport) -> Figure:
 def _linkage(axes: Axes, report: CheckReport) -> None:
     """Bodies at the start, and pale ones at ends of ranges or over a turn; paths of traced points."""
     reached = [report.start.position, *(one.position for way in report.ways for one in way.moved)]
-    drawing = LinkageDrawing(axes, report.linkage, report.blocks, reached)
+    drawing = LinkageDrawing(axes, report.linkage, reached)
     looks = list(zip(report.ways, itertools.cycle(CURVES), strict=False))
     for way, (colour, dashes) in looks:
         drawing.paths([one.position for one in way.moved], colour)
@@ -90,12 +92,6 @@ def _others(way: DriveWay, alone: bool) -> list[Moved]:
         return [way.moved[round(n)] for n in np.linspace(0, len(way.moved) - 1, GHOSTS + 2)[1:-1]]
     shown = (way.moved[0], *([way.moved[len(way.moved) // 2]] if alone else []), way.moved[-1])
     return [one for one in shown if one.travel != 0.0]
-
-
-def _pins(axes: Axes, way: DriveWay) -> None:
-    """The static force in the pins that are loaded most over the way of a drive."""
-    forces = {name: [float(np.hypot(*one.forces.pins[name])) for one in way.moved] for name in way.linkage.pins}
-    _curves(axes, way, "static force in pins", "force", forces, "N")
 
 
 def _holding(axes: Axes, way: DriveWay) -> None:
@@ -144,14 +140,12 @@ def _bounded(way: DriveWay, values: Sequence[float]) -> list[float]:
 
 def _angles(axes: Axes, way: DriveWay, curves: Mapping[str, Series]) -> None:
     """Transmission angles over a way; grey where they are poor."""
-    x = [way.shown(one.travel) for one in way.moved]
+    x, edge = [way.shown(one.travel) for one in way.moved], math.degrees(LEAST)
     for (name, values), (colour, dashes) in zip(curves.items(), CURVES, strict=False):
         axes.plot(x, values, color=colour, ls=dashes, lw=1.4, label=name)
-    edge = math.degrees(LEAST)
     for low in (0.0, 180.0 - edge):
         axes.axhspan(low, low + edge, color=GREY, alpha=0.18, lw=0)
-    axes.set(ylim=(0.0, 180.0), yticks=range(0, 181, 30), ylabel="angle [deg]")
-    axes.set_title("transmission angle")
+    axes.set(ylim=(0.0, 180.0), yticks=range(0, 181, 30), ylabel="angle [deg]", title="transmission angle")
     _legend(axes, max(map(len, curves)))
     _abscissa(axes, way)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -28,11 +28,9 @@ from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.value import InputError, Vector2, short
 
 GREY, START, LOAD, MARK = "#777777", "#000000", style.PAPER, style.CONTACT
-BLOCK = 0.035, 0.022  # half of a block of unknown size, along and across, of the drawing's size
-SMALL = 0.08  # of the drawing's size: smaller bodies have no name on them
-SUPPORT = 0.028  # a pivot on the ground, of the drawing's size
+SMALL, ARROW = 0.08, 0.12  # bodies without a name on them, arrow of a force: of the drawing's size
 ALONG, ASIDE = 0.42, 8.0  # where the name of a bar stands: share of its length, and its distance [points]
-COILS, COIL, ARROW = 6, 0.02, 0.12  # of a spring, half its width; of a force: of the drawing's size
+SUPPORT = [(0.0, 0.0), (-0.6, -1.0), (0.6, -1.0), (0.0, 0.0)]  # marker of a pivot on the ground
 HALO = [withStroke(linewidth=2.2, foreground="white")]
 SHOWN_CRANK = math.radians(50.0)  # of a crank that starts in line with its rod, where one hides the other
 IN_LINE = 0.2  # sine of its angle below which it does
@@ -61,13 +59,17 @@ def machine_drawing(scenario: Scenario, marked: Sequence[str] | None = None) -> 
     start = np.zeros(3 * len(linkage.bodies))
     with style.look():
         drawing = style.begin(150, 105, f"{machine_name(scenario)}, start posture{note}")
-        shown = LinkageDrawing(drawing.subplots(), linkage, {}, [start])
+        shown = LinkageDrawing(drawing.subplots(), linkage, [start])
         shown.posture(start)
         shown.names(start)
         for n, name in enumerate(marked):
             clearance = 1e3 * loose[name].contact.bearing.clearance if name in loose else 0.0
-            colour = CURVES[(n - 1) % len(CURVES)][0] if n else MARK
-            shown.mark(start, name, colour, f", c = {clearance:.4g} mm" if clearance else "")
+            words, colour = as_words(name), CURVES[(n - 1) % len(CURVES)][0] if n else MARK
+            label = words if words.endswith("pin") else f"{words} pin"
+            label += f", c = {clearance:.4g} mm" if clearance else ""
+            place = shown.at(start, linkage.pins[name].second, linkage.pins[name].second_point)
+            ring: dict[str, Any] = {"ms": 12, "mfc": "none", "mec": colour, "mew": 2.0, "zorder": 8}
+            shown.axes.plot(*place[:, None], "o", label=label, **ring)
         if marked:
             shown.axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2)
     return drawing
@@ -79,19 +81,17 @@ class LinkageDrawing:
     Arguments:
         axes: on which it is drawn.
         linkage: the mechanism.
-        blocks: length along and height across of what slides in a guide [m], by guide.
         reached: coordinates (3 bodies,) of postures; guides are as long as they need, the first is the start.
     """
 
-    def __init__(
-        self,
-        axes: Axes,
-        linkage: Linkage,
-        blocks: Mapping[str, tuple[float, float]],
-        reached: Sequence[Series],
-    ) -> None:
-        self.axes, self.linkage, self.blocks, self.reached = axes, linkage, blocks, reached
-        self._kinetics, self._joints = kinetics_of(linkage), _drawn_points(linkage)
+    def __init__(self, axes: Axes, linkage: Linkage, reached: Sequence[Series]) -> None:
+        self.axes, self.linkage, self.reached = axes, linkage, reached
+        self._kinetics, self._joints = kinetics_of(linkage), joined_points(linkage)
+        for slide in linkage.slides.values():
+            self._joints[slide.body].append(slide.point)
+        for name, body in linkage.bodies.items():
+            if len(set(self._joints[name])) < 2 and all(one.body != name for one in linkage.slides.values()):
+                self._joints[name].append(body.centre)
         everything = np.concatenate([self._corners(reached[0], body) for body in self._joints])
         self._size = max(float(np.ptp(everything, axis=0).max()), 1e-6)  # [mm]
         axes.set(xlabel="x [mm]", ylabel="y [mm]")
@@ -105,7 +105,7 @@ class LinkageDrawing:
         return place
 
     def _corners(self, position: Series, body: str) -> Series:
-        """The places of all points of a body (n, 2) [mm]."""
+        """The places of all points of a body at which something is joined or traced (n, 2) [mm]."""
         points = dict.fromkeys(self._joints[body])
         return np.reshape([self.at(position, body, point) for point in points], (-1, 2))
 
@@ -114,9 +114,6 @@ class LinkageDrawing:
         one = self.linkage.actuators[name]
         ends = ((one.foot, one.foot_point), (one.head, one.head_point))
         return np.array([self.at(position, *end) for end in ends])
-
-    def _line(self, places: Sequence[Series] | Series, **look: Any) -> None:
-        self.axes.plot(*np.transpose(places), **look)
 
     def _write(self, text: str, place: Series, offset: tuple[float, float], **look: Any) -> None:
         """A text next to a place [mm], offset in points."""
@@ -128,7 +125,7 @@ class LinkageDrawing:
         for name, traced in self.linkage.points.items():
             path = np.array([self.at(position, traced.body, traced.point) for position in positions])
             if np.ptp(path, axis=0).max() > self._size * 1e-6:
-                self._line(path, color=colour, lw=0.9, ls="-", zorder=2)
+                self.axes.plot(*path.T, color=colour, lw=0.9, zorder=2)
                 self._write(as_words(name), path[len(path) // 3], (3, 3), fontsize=7, color=colour)
 
     # --- a posture ---
@@ -137,83 +134,61 @@ class LinkageDrawing:
         self, position: Series, colour: str = START, dashes: Dashes = "-", *, strong: bool = True
     ) -> None:
         """All bodies in a posture, strong or pale: plates or lines, blocks, actuators, pivots."""
-        pale: dict[str, Any] = {"color": colour, "alpha": 1.0 if strong else 0.55}
         layer = 4.0 if strong else 2.5
-        for name in self.linkage.slides:
-            self._guide(name, position, colour, strong)
+        pale: dict[str, Any] = {"color": colour, "alpha": 1.0 if strong else 0.55, "zorder": layer}
         for body in self.linkage.bodies:
             corners = _hull(self._corners(position, body))
             if len(corners) > 2:
-                fill = {"fc": colour, "alpha": 0.12 if strong else 0.04}
-                self.axes.add_patch(Polygon(corners, closed=True, lw=0, zorder=layer - 1, **fill))
+                alpha = 0.12 if strong else 0.04
+                plate = Polygon(corners, closed=True, lw=0, fc=colour, alpha=alpha, zorder=layer - 1)
+                self.axes.add_patch(plate)
                 corners = np.vstack([corners, corners[:1]])
             mark = {"marker": "x", "ms": 5} if len(corners) == 1 else {}  # joined to nothing
-            self._line(corners, ls=dashes, lw=1.8 if strong else 0.9, zorder=layer, **pale, **mark)
+            self.axes.plot(*corners.T, ls=dashes, lw=1.8 if strong else 0.9, **pale, **mark)
         for name in self.linkage.actuators:  # a thick cylinder and a thin rod
             foot, head = self._ends(name, position)
             middle = foot + 0.55 * (head - foot)
             for part, width in (((foot, middle), 3.6), ((middle, head), 1.4)):
                 thick = width if strong else 0.6 * width
-                self._line(part, lw=thick, solid_capstyle="butt", zorder=layer, **pale)
+                self.axes.plot(*np.transpose(part), lw=thick, solid_capstyle="butt", **pale)
+        for name, slide in self.linkage.slides.items():
+            if not slide.turns:
+                block: dict[str, Any] = {"ms": 9 if strong else 6, "mfc": "white" if strong else "none"}
+                self.axes.plot(*self.at(position, slide.body, slide.point)[:, None], "s", **pale, **block)
+            if strong:
+                self._guide(name, position)
         if strong:
             self._pivots(position, colour)
 
+    def _guide(self, name: str, position: Series) -> None:
+        """The line of a guide, as far as it is used in all postures and a little farther."""
+        slide = self.linkage.slides[name]
+
+        def along(one: Series) -> Series:
+            turn = 0.0 if slide.against == GROUND else one[self._kinetics.first(slide.against) + 2]
+            return np.array([math.cos(slide.direction + turn), math.sin(slide.direction + turn)])
+
+        used = [
+            (self.at(one, slide.body, slide.point) - self.at(one, slide.against, slide.point)) @ along(one)
+            for one in self.reached
+        ]
+        far, origin = 0.07 * self._size, self.at(position, slide.against, slide.point)
+        ends = [origin + s * along(position) for s in (min(used) - far, max(used) + far)]
+        self.axes.plot(*np.transpose(ends), color=GREY, lw=4.0, alpha=0.4, zorder=1.5)
+
     def _pivots(self, position: Series, colour: str) -> None:
-        """Pins, ends of actuators, and triangles on hatched lines where the ground carries something."""
-        linkage, size = self.linkage, SUPPORT * self._size
+        """Pins, ends of actuators, and triangles where the ground carries something."""
+        linkage = self.linkage
         ends = [(pin.second, pin.second_point) for pin in linkage.pins.values()]
         ends += [(slide.body, slide.point) for slide in linkage.slides.values() if slide.turns]
         places = [self.at(position, *end) for end in ends]
         places += [end for name in linkage.actuators for end in self._ends(name, position)]
-        circle: dict[str, Any] = {"marker": "o", "ms": 4.5, "mfc": "white", "mec": colour, "mew": 1.0}
-        self._line(np.reshape(places, (-1, 2)), ls="none", zorder=6, **circle)
-        for x, y in self._corners(position, GROUND):
-            foot = y - 1.3 * size
-            grey: dict[str, Any] = {"color": GREY, "zorder": 3}
-            corners = [(x, y), (x - 0.8 * size, foot), (x + 0.8 * size, foot)]
-            self.axes.add_patch(Polygon(corners, closed=True, fc="white", ec=GREY, lw=0.9, zorder=3))
-            self.axes.plot((x - 1.2 * size, x + 1.2 * size), (foot, foot), lw=0.9, **grey)
-            starts = x + size * np.linspace(-0.9, 1.2, 5)
-            self.axes.plot([starts, starts - 0.4 * size], [[foot] * 5, [foot - 0.4 * size] * 5], lw=0.6, **grey)
+        circle: dict[str, Any] = {"ms": 4.5, "mfc": "white", "mec": colour, "mew": 1.0, "zorder": 6}
+        self.axes.plot(*np.reshape(places, (-1, 2)).T, "o", **circle)
+        ground: dict[str, Any] = {"ms": 18, "mfc": "white", "mec": GREY, "mew": 0.9, "ls": "none", "zorder": 3}
+        self.axes.plot(*self._corners(position, GROUND).T, marker=SUPPORT, **ground)
 
-    def _guide(self, name: str, position: Series, colour: str, strong: bool) -> None:
-        """The line of a guide, as far as it is used, and the block that slides along it."""
-        slide, along = self.linkage.slides[name], self._direction(name, position)
-        across = np.array([-along[1], along[0]])
-        unknown = 2e-3 * BLOCK[0] * self._size, 2e-3 * BLOCK[1] * self._size
-        length, height = (0.5e3 * side for side in self.blocks.get(name, unknown))
-        if strong:
-            origin, used = self.at(position, slide.against, slide.point), self._used(name)
-            low, high = min(used) - 2.0 * length, max(used) + 2.0 * length
-            off = 0.5 * height if slide.turns else height
-            for side in (-off, off):
-                ends = [origin + s * along + side * across for s in (low, high)]
-                self._line(ends, color=GREY, lw=0.9, zorder=1.5)
-        if not slide.turns:
-            place = self.at(position, slide.body, slide.point)
-            signs = (-1, -1), (1, -1), (1, 1), (-1, 1)
-            corners = [place + s * length * along + t * height * across for s, t in signs]
-            look: dict[str, Any] = {"fc": "white", "lw": 1.4, "alpha": 1.0, "zorder": 3.8}
-            if not strong:
-                look = {"fc": "none", "lw": 0.7, "alpha": 0.55, "zorder": 2.4}
-            self.axes.add_patch(Polygon(corners, closed=True, ec=colour, **look))
-
-    def _direction(self, name: str, position: Series) -> Series:
-        """Unit vector along a guide in a posture (2,)."""
-        slide = self.linkage.slides[name]
-        turn = 0.0 if slide.against == GROUND else position[self._kinetics.first(slide.against) + 2]
-        return np.array([math.cos(slide.direction + turn), math.sin(slide.direction + turn)])
-
-    def _used(self, name: str) -> list[float]:
-        """Where along its guide something stands in all postures, from its place at the start [mm]."""
-        slide = self.linkage.slides[name]
-        apart = (
-            np.subtract(*(self.at(position, body, slide.point) for body in (slide.body, slide.against)))
-            for position in self.reached
-        )
-        return [float(way @ self._direction(name, one)) for way, one in zip(apart, self.reached, strict=True)]
-
-    # --- names ---
+    # --- names and loads ---
 
     def pin_names(self, position: Series) -> None:
         """The names of pins at their places; of several pins at one place together."""
@@ -238,15 +213,8 @@ class LinkageDrawing:
         for name in self.linkage.actuators:
             self._word(self._ends(name, position), name)
 
-    def mark(self, position: Series, name: str, colour: str, more: str) -> None:
-        """A ring around a pin, whose name and more words stand in the legend."""
-        pin, words = self.linkage.pins[name], as_words(name)
-        label = f"{words if words.endswith('pin') else f'{words} pin'}{more}"
-        look: dict[str, Any] = {"ms": 12, "mfc": "none", "mec": colour, "mew": 2.0, "ls": "none", "zorder": 8}
-        self._line([self.at(position, pin.second, pin.second_point)], marker="o", label=label, **look)
-
     def _word(self, corners: Series, name: str) -> None:
-        """The name of a body: on a plate, next to a bar, below a block."""
+        """The name of a body: on a plate, next to a bar, next to a block."""
         place, aside = corners.mean(axis=0), np.zeros(2)
         if len(corners) == 1:
             aside = np.array([-1.2 * ASIDE, 1.6 * ASIDE])
@@ -260,41 +228,21 @@ class LinkageDrawing:
         self._write(as_words(name), place, offset, ha=side, va="center", zorder=5.5, **look)
 
     def load(self, name: str, load: ActingLoad) -> None:
-        """A spring as a zigzag between its ends, another force as an arrow at its point, start posture."""
+        """A spring as a dotted line between its ends, another force as an arrow at its point, start posture."""
         if not isinstance(load, Load):
             return
         still = np.zeros(3 * len(self.linkage.bodies))
         end = self.at(still, load.body, load.point)
         if isinstance(load, SpringDamper):
-            start = self.at(still, load.against(name), load.origin)
-            along = (end - start) / np.hypot(*(end - start))
-            share = np.concatenate([[0.0], np.linspace(0.2, 0.8, 2 * COILS + 1), [1.0]])
-            aside = np.concatenate([[0.0, 0.0], np.tile([1.0, -1.0], COILS)[:-1], [0.0, 0.0]])
-            across = COIL * self._size * np.outer(aside, (-along[1], along[0]))
-            self._line(start + np.outer(share, end - start) + across, color=LOAD, lw=1.0, zorder=4.5)
-            self._word(np.array([start, end]), name)
-            return
-        complete = LoadedPoint(max(load.breaks, default=0.0), 0.0, 0.0, 0.0, 0.0)
-        force = np.array(load.numbers(complete)[:2])
-        if np.hypot(*force) > 0.0:
-            tail = end - ARROW * self._size * force / np.hypot(*force)
-            arrow = {"arrowstyle": "-|>", "color": LOAD, "lw": 1.4, "shrinkA": 0, "shrinkB": 0}
-            self.axes.annotate("", tuple(end.tolist()), tuple(tail.tolist()), arrowprops=arrow)
-            self._word(np.array([tail, end]), name)
-
-
-def _drawn_points(linkage: Linkage) -> dict[str, list[Vector2]]:
-    """The points of each body, and of the ground, at which something is joined or traced, start posture [m].
-
-    Of a body with fewer than two and without a guide the centre of mass, too.
-    """
-    joints = joined_points(linkage)
-    for slide in linkage.slides.values():
-        joints[slide.body].append(slide.point)
-    for name, body in linkage.bodies.items():
-        if len(set(joints[name])) < 2 and not any(one.body == name for one in linkage.slides.values()):
-            joints[name].append(body.centre)
-    return joints
+            tail, arrow = self.at(still, load.against(name), load.origin), {"arrowstyle": "-", "ls": ":"}
+        else:
+            force = np.array(load.numbers(LoadedPoint(max(load.breaks, default=0.0), 0.0, 0.0, 0.0, 0.0))[:2])
+            if not np.hypot(*force) > 0.0:
+                return
+            tail, arrow = end - ARROW * self._size * force / np.hypot(*force), {"arrowstyle": "-|>"}
+        shape: dict[str, Any] = arrow | {"color": LOAD, "lw": 1.4, "shrinkA": 0, "shrinkB": 0}
+        self.axes.annotate("", tuple(end.tolist()), tuple(tail.tolist()), arrowprops=shape)
+        self._word(np.array([tail, end]), name)
 
 
 def _hull(places: Series) -> Series:
