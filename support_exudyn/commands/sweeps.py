@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 from cyclopts import Parameter
 
 from support_exudyn.commands import command_line as cli
-from support_exudyn.postprocessing import sweep_sliders, sweep_summary, sweep_table
+from support_exudyn.postprocessing import sweep_runs, sweep_sliders, sweep_summary
 from support_exudyn.postprocessing.figures.selection import matching
 from support_exudyn.postprocessing.sweep_runs import SweepRuns
 from support_exudyn.sweeps import read_sweep, read_table
@@ -19,7 +19,7 @@ from user_forces.values.value import InputError
 
 FAILURES = 3  # exit code
 MOST = 8  # numbers that are shown unless all or some are asked for
-FORMATS = {"md": sweep_table.as_markdown, "csv": sweep_table.as_csv, "latex": sweep_table.as_latex}
+FORMATS = {"md": sweep_runs.as_markdown, "csv": sweep_runs.as_csv, "latex": sweep_runs.as_latex}
 Store = Annotated[Path, Parameter(help="Folder of a sweep, or the table.parquet in it.")]
 Workers = Annotated[int | None, cli.at_most(1024)]
 

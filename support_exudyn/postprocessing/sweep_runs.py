@@ -1,7 +1,10 @@
-"""The table of a sweep for its figures and tables: what varied, and numbers with their errors and units."""
+"""The table of a sweep: what varied, numbers with their errors and units, and its runs as text."""
 
 from __future__ import annotations
 
+import csv
+import io
+from collections.abc import Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import cached_property
@@ -10,9 +13,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from support_exudyn.files.series.units import split_title
+from support_exudyn.postprocessing.figures.units import DisplayUnit, readable
+from support_exudyn.postprocessing.shown_numbers import DIGITS, to_error
+from support_exudyn.simulation.estimate import Estimate
 from user_forces.values.value import InputError, short
 
 if TYPE_CHECKING:
+    import pandas as pd
     import pyarrow as pa
 
 WALL_TIME = "wall_time_s"
@@ -31,6 +38,16 @@ class SweepNumber:
     unit: str
     values: np.ndarray
     errors: np.ndarray | None
+
+    @property
+    def display(self) -> DisplayUnit:
+        """The unit in which its values are read best."""
+        return readable(self.unit, float(np.abs(self.known).max(initial=0.0)))
+
+    @property
+    def title(self) -> str:
+        """Its name with this unit."""
+        return f"{self.name} [{self.display.name}]" if self.display.name else self.name
 
     @property
     def rows(self) -> np.ndarray:
@@ -118,3 +135,51 @@ def in_words(name: str) -> str:
 def some(names: list[str]) -> str:
     """The first of some names, and how many more there are."""
     return ", ".join(names[:8]) + (f" and {len(names) - 8} more" if len(names) > 8 else "") or "none"
+
+
+# --- for a text ---
+
+
+def as_frame(runs: SweepRuns, columns: Sequence[str]) -> pd.DataFrame:
+    """Texts: run, what varied, and numbers with their errors where they are known, in units that read best.
+
+    columns: of the sweep's table.
+    """
+    import pandas  # it takes a third of a second
+
+    cells = {"run": runs.column("run")}
+    for name in runs.varied:
+        items = runs.column(name)
+        cells[in_words(name)] = [f"{one:.{DIGITS}g}" if isinstance(one, float) else str(one) for one in items]
+    for number in map(runs.number, columns):
+        errors = np.full(number.values.size, np.nan) if number.errors is None else number.errors
+        pairs = [Estimate(*pair, number.unit) for pair in zip(number.values, errors, strict=True)]
+        scale = number.display.scale
+        cells[number.title] = ["" if np.isnan(one.value) else to_error(one, scale) for one in pairs]
+    return pandas.DataFrame(cells)
+
+
+def as_markdown(runs: SweepRuns, columns: Sequence[str]) -> str:
+    """A table of Markdown; columns as of `as_frame`."""
+    frame = as_frame(runs, columns)
+    lines = [[*frame.columns], ["---", *["---:"] * (frame.shape[1] - 1)], *frame.to_numpy().tolist()]
+    return "\n".join(f"| {' | '.join(cell.replace('|', '/') for cell in line)} |" for line in lines) + "\n"
+
+
+def as_latex(runs: SweepRuns, columns: Sequence[str]) -> str:
+    """A tabular of LaTeX with the rules of booktabs; columns as of `as_frame`."""
+    frame = as_frame(runs, columns)
+    text: str = frame.to_latex(index=False, escape=True, column_format="l" + "r" * (frame.shape[1] - 1))
+    return text.replace("±", r"$\pm$").replace("µ", r"$\mu$").replace("²", "$^2$")
+
+
+def as_csv(runs: SweepRuns, columns: Sequence[str]) -> str:
+    """Comma-separated values in SI with all digits, units in the names; errors have columns of their own."""
+    wanted = {"run", "status", *runs.varied, *columns, *(f"{name}_error" for name in columns)}
+    kept = [name for name in runs.table.column_names if name in wanted]
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(kept)
+    for row in runs.table.select(kept).to_pylist():
+        writer.writerow(["" if row[name] is None else row[name] for name in kept])
+    return text.getvalue()

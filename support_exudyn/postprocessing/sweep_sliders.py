@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from support_exudyn.files.whole_file import whole_file
-from support_exudyn.postprocessing.figures.units import readable
 from support_exudyn.postprocessing.sweep_runs import SweepRuns, in_words
 from user_forces.values.value import InputError
 
@@ -80,12 +79,10 @@ def _data(runs: SweepRuns, columns: Sequence[str]) -> tuple[dict[str, Any], list
     found: dict[str, Any] = {"run": [runs.column("run")[n] for n in done], **inputs}
     numbers = []
     for one in map(runs.number, columns):
-        unit = readable(one.unit, float(np.abs(one.known).max(initial=0.0)))
-        title = f"{one.name} [{unit.name}]" if unit.name else one.name
-        numbers.append(title)
-        found[title] = one.values[done] * unit.scale
+        numbers.append(one.title)
+        found[one.title] = one.values[done] * one.display.scale
         if one.errors is not None:
-            found[f"error of {title}"] = one.errors[done] * unit.scale
+            found[f"error of {one.title}"] = one.errors[done] * one.display.scale
     return found, list(inputs), numbers
 
 

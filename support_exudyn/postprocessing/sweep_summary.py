@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from support_exudyn.postprocessing.figures.units import DisplayUnit, readable
+from support_exudyn.postprocessing.figures.units import DisplayUnit
 from support_exudyn.postprocessing.result_table import ResultTable
 from support_exudyn.postprocessing.sweep_runs import SweepNumber, SweepRuns, in_words
 from support_exudyn.sweeps.statistics import Percentile, Rank, percentiles, ranking
@@ -71,7 +71,7 @@ def _what_came_out(runs: SweepRuns, columns: list[str], rest: str) -> ResultTabl
         if not one.known.size:
             rows.append((one.name, "", "0", *[""] * (len(header) - 3)))
             continue
-        unit = readable(one.unit, float(np.abs(one.known).max()))
+        unit = one.display
         cells = [_with_band(each, unit) for each in percentiles(one.known.tolist())] if sampled else []
         cells = cells or [_rounded(one.known.mean(), unit)]
         ends = _rounded(one.known.min(), unit), _rounded(one.known.max(), unit)

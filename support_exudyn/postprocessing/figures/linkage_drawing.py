@@ -153,7 +153,7 @@ class LinkageDrawing:
                 self.axes.plot(*np.transpose(part), lw=thick, solid_capstyle="butt", **pale)
         for name, slide in self.linkage.slides.items():
             if not slide.turns:
-                block: dict[str, Any] = {"ms": 9 if strong else 6, "mfc": "white" if strong else "none"}
+                block: dict[str, Any] = {"ms": 15 if strong else 9, "mfc": "white" if strong else "none"}
                 self.axes.plot(*self.at(position, slide.body, slide.point)[:, None], "s", **pale, **block)
             if strong:
                 self._guide(name, position)
