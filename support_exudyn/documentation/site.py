@@ -10,7 +10,7 @@ from tempfile import TemporaryDirectory
 
 from support_exudyn.documentation.gallery import gallery_page
 from support_exudyn.documentation.keys import keys_page
-from support_exudyn.documentation.machine_pages import channels_page, machines_page
+from support_exudyn.documentation.machine_pages import machines_page
 from support_exudyn.documentation.reference import reference_pages
 from support_exudyn.files import scenario_schema
 from support_exudyn.files.machines import machine_schema
@@ -70,7 +70,6 @@ def _lay_out(pages: Path, commands: str) -> str:
         "commands": ("What every command takes", commands),
         "scenario_keys": (scenario, keys_page(scenario, scenario_schema())),
         "machine_keys": (machine, keys_page(machine, machine_schema())),
-        "channels": ("What a run records", channels_page()),
         "machines": ("Machines that come with the package", machines_page(reference / "pictures")),
         "gallery": ("Examples", gallery_page(ROOT / "studies" / "examples", reference / "pictures")),
         **{name: (f"Names in Python: `{name.partition('_')[2]}`", text) for name, text in named.items()},

@@ -37,7 +37,6 @@ from support_exudyn.simulation.impulses import impulses_of
 from support_exudyn.simulation.provenance import FORMULATION_ASKED
 from support_exudyn.simulation.reported_numbers import FORCE
 from support_exudyn.simulation.result import Result
-from user_forces.friction.laws import Frictionless
 from user_forces.values.value import InputError, Value
 
 Row = tuple[str, ...]
@@ -152,21 +151,22 @@ def in_short(result: Result) -> list[Row]:
 
     Without a clearance joint of the pin with the largest force.
     """
-    found = numbers(result, *WHOLE)
-    joints = hardest_first(found)
-    forces = [name for name in found if name.startswith("pin.") and name.endswith(".force.largest")]
-    largest = max(forces, key=lambda name: found[name].value, default="")
-    own = joints[0] if joints else largest.removesuffix(".force.largest")
-    if not own:
+    every = numbers(result, *WHOLE)
+    joints, others = hardest_first(every), ""
+    forces = {name.removesuffix(".force.largest"): one for name, one in every.items()
+              if name.startswith("pin.") and name.endswith(".force.largest")}  # fmt: skip
+    if not joints and not forces:
         return [("forces", "none recorded")]
-    peak = f"{own}{LARGEST}" if joints else largest
+    own = joints[0] if joints else max(forces, key=lambda name: forces[name].value)
+    peak = f"{own}{LARGEST}" if joints else f"{own}.force.largest"
+    named = ("mean force", f"{own}.force.mean"), ("peak force", peak), ("fluctuation (RMS)", f"{own}.force.std")
     rows = []
-    for what, name in (("mean force", "force.mean"), ("peak force", ""), ("fluctuation (RMS)", "force.std")):
-        number = found.get(f"{own}.{name}" if name else peak)
-        value, error, unit = ("not recorded", "", "") if number is None else with_error(number)
+    for what, name in named:
+        value, error, unit = with_error(every[name]) if name in every else ("not recorded", "", "")
         rows.append((f"{own}: {what}", f"{value} ± {error} {unit}" if error else f"{value} {unit}".rstrip()))
+    if len(joints) > 1:
+        others = f"; smaller forces in {', '.join(joints[1:])}"
     onsets = next((some for pin, some in result.onsets.items() if result.scenario.contact_stem(pin) == own), ())
-    others = f"; smaller forces in {', '.join(joints[1:])}" if len(joints) > 1 else ""
     impacts = f"{len(onsets)}{others}" if joints else "none, for there is no clearance joint"
     return [*rows, (f"{own}: impacts", impacts)]
 
@@ -302,15 +302,14 @@ def how(result: Result) -> list[Row]:
 
 def unmet(result: Result) -> str:
     """What to change where the accuracy that was asked for was not met."""
-    error, contacts = result.worst_error, result.scenario.contact_places.values()
-    changes = ["means in place of largest values, which settle first"]
-    if any(not isinstance(place.contact.friction, Frictionless) for place in contacts):
-        changes.insert(0, "a friction law with a less steep ramp (dynamic_speed)")
-    if any(result.onsets.values()):
-        changes.insert(0, "a shorter duration_s, for every impact multiplies the errors of those before")
+    error, determined, changes = result.worst_error, "", []
     if 1.1 * error <= LARGEST_GOAL:
-        changes.insert(0, f"ask for what was reached (accuracy = {1.1 * error:.1g})")
-    determined = ""
+        changes.append(f"ask for what was reached (accuracy = {1.1 * error:.1g})")
+    changes += [
+        "a shorter duration_s, for every impact multiplies the errors of those before",
+        "a friction law with a less steep ramp (dynamic_speed)",
+        "means in place of largest values, which settle first",
+    ]
     if math.isfinite(result.horizon):
         determined = (
             f"Up to {amount(result.horizon, 's')}, {agreed(result)} impacts, runs with shorter steps agree; "
