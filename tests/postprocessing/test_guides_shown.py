@@ -8,33 +8,18 @@ from pathlib import Path
 
 import pytest
 
-from support_exudyn import ClearanceGuide, IdealGuide, Scenario, Slide, simulate
+from support_exudyn import ClearanceGuide, Scenario, simulate
 from support_exudyn.__main__ import main
 from support_exudyn.postprocessing import summary
-from support_exudyn.postprocessing.look.plain import sliding_block, slot_walls
 from support_exudyn.simulation.reported_numbers import measures
 from tests.cases.guide_cases import BLOCK, slider_crank
 
-SLIDE = Slide(body="slider", point=(1.0, 2.0), direction=0.0)
 GUIDE = ClearanceGuide.simple(gaps=(2e-3, 1e-3), block=BLOCK)
 
 
 @pytest.fixture(scope="module")
 def scene() -> Scenario:
     return slider_crank(1e9, 0.004, step=1e-4, impact_steps=16)
-
-
-def test_walls_and_block_are_drawn_where_they_are() -> None:
-    upper, lower = slot_walls(SLIDE, GUIDE, 0.3)
-    (block,) = sliding_block(SLIDE, GUIDE)
-    assert block.bounds == pytest.approx((0.95, 1.975, 1.05, 2.025))
-    assert upper.bounds[1] - block.bounds[3] == pytest.approx(2e-3)
-    assert block.bounds[1] - lower.bounds[3] == pytest.approx(1e-3)
-    (pin,) = sliding_block(SLIDE, ClearanceGuide.simple(gaps=1e-3, pin_radius=0.02))
-    assert pin.bounds == pytest.approx((0.98, 1.98, 1.02, 2.02))
-    upright = replace(SLIDE, direction=1.5707963267948966)
-    assert sliding_block(upright, GUIDE)[0].bounds == pytest.approx((0.975, 1.95, 1.025, 2.05))
-    assert slot_walls(SLIDE, IdealGuide(), 0.3) == sliding_block(SLIDE, IdealGuide()) == []
 
 
 def test_impacts_are_told_by_corner(

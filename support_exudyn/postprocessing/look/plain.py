@@ -4,18 +4,15 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
-from shapely.affinity import rotate, translate
-from shapely.geometry import MultiPoint, Point, Polygon, box
+from shapely.geometry import Polygon, box
 from shapely.ops import unary_union
 from trimesh import Trimesh
 
-from support_exudyn.model.guides import Guide
 from support_exudyn.model.linkage import GROUND, Linkage, Slide
 from support_exudyn.model.loads.springs import SpringDamper
 from support_exudyn.model.to_space import at, copies, pairs_of
 from support_exudyn.postprocessing.look.poses import joined_points, planar_pins
 from support_exudyn.postprocessing.look.shapes import (
-    ROUND,
     Look,
     Role,
     Shape,
@@ -37,7 +34,6 @@ WALL = 1.3  # radius of an eye, of its bore's
 RAIL = 0.45  # half the length of a guide's rail, of the machine's extent
 BORE = 0.35  # radius of bores of unknown size, of the margin
 CYLINDER = 0.6  # length of a cylinder, of the actuator at the start
-SLOT_WALL = 0.5  # height of a slot's wall, of the slot's
 
 
 def look(scenario: Scenario) -> Look:
@@ -80,23 +76,17 @@ def look(scenario: Scenario) -> Look:
 
 def _outline(scenario: Scenario, body: str, around: Sequence[Vector2], wide: float, size: float) -> Polygon:
     """A plate around the points of a body; a block if it slides on the ground, which has a rail for it."""
-    slides, guides = scenario.linkage.slides, scenario.guides
-    loose = {name: slides[name] for name, guide in guides.items() if not guide.holds}
-    fixed = [slide for name, slide in slides.items() if name not in loose]
-    carried = {name: slide for name, slide in loose.items() if slide.against == body}
-    walls = [wall for name, one in carried.items() for wall in slot_walls(one, guides[name], 2.0 * RAIL * size)]
+    slides = [one for one in scenario.linkage.slides.values() if one.against == GROUND]
     if body == GROUND:
-        rails = [one for one in fixed if one.against == GROUND]
-        on_rails = {slide.point for slide in (*rails, *carried.values())}
+        on_rails = {slide.point for slide in slides}
         rest = [point for point in around if point not in on_rails]
-        main = [hull(rest, wide)] if rest else []
-        main += [_along(slide, RAIL * size, 0.5 * wide) for slide in rails]
+        parts = [hull(rest, wide)] if rest else []
+        parts += [_along(slide, RAIL * size, 0.5 * wide) for slide in slides]
     else:
-        blocks = [one for one in fixed if one.body == body and one.against == GROUND]
-        main = [hull(around, wide), *(_along(one, 2.0 * wide, 1.2 * wide) for one in blocks)]
-        own = (name for name, slide in loose.items() if slide.body == body)
-        main += [block for name in own for block in sliding_block(slides[name], guides[name])]
-    parts = [*main, *walls]
+        parts = [
+            hull(around, wide),
+            *(_along(one, 2.0 * wide, 1.2 * wide) for one in slides if one.body == body),
+        ]
     whole = unary_union(parts)
     if isinstance(whole, Polygon):
         return whole
@@ -178,7 +168,7 @@ def _pairs(scenario: Scenario) -> Mapping[str, float]:
     return {} if width is None else pairs_of(scenario.linkage, width)
 
 
-# --- springs, guides with clearance, falling blocks ---
+# --- springs, falling blocks ---
 
 
 def springs(scenario: Scenario, radius: float) -> Iterator[Shape]:
@@ -194,34 +184,6 @@ def springs(scenario: Scenario, radius: float) -> Iterator[Shape]:
 def _telescope(length: float, radius: float) -> tuple[Trimesh, Trimesh]:
     """Cylinder and rod of a strut of this length at the start [m], whose stroke is not known."""
     return axle(0.0, CYLINDER * length, radius), axle(-0.9 * length, 0.0, 0.5 * radius)
-
-
-def slot_walls(slide: Slide, guide: Guide, length: float) -> list[Polygon]:
-    """Both walls of a guide in the start posture, about its point; none if it has no clearance.
-
-    length: of the guide [m], or that of the block and as much again if that is more.
-    """
-    for part in guide.contacts().values():
-        half, slot = max(0.5 * length, 2.0 * abs(part.point[0])), part.contact.bearing.size
-        high = SLOT_WALL * 2.0 * slot
-        low = (part.middle + slot, part.middle - slot - high)
-        return [_on_guide(box(-half, y, half, y + high), slide) for y in low]
-    return []
-
-
-def sliding_block(slide: Slide, guide: Guide) -> list[Polygon]:
-    """What slides in a guide with clearance: a block, or a pin; nothing if it has no clearance."""
-    parts = list(guide.contacts().values())
-    if not parts:
-        return []
-    whole = MultiPoint([part.point for part in parts]).convex_hull
-    radius = parts[0].contact.bearing.contact_arms(0.0)[1]
-    return [_on_guide(whole.buffer(radius, quad_segs=ROUND) if radius else whole, slide)]
-
-
-def _on_guide(shape: Polygon, slide: Slide) -> Polygon:
-    """A shape in the axes of a guide, about its point, in the start posture."""
-    return translate(rotate(shape, math.degrees(slide.direction), origin=Point(0.0, 0.0)), *slide.point)
 
 
 def blocks(scenario: Scenario) -> list[Shape]:
