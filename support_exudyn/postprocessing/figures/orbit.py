@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from support_exudyn.postprocessing.figures import style, units
-from support_exudyn.postprocessing.figures.journal import JournalPath, Series, journal, shortest_impact
+from support_exudyn.postprocessing.figures.journal import JournalPath, journal, shortest_impact
 from support_exudyn.postprocessing.figures.selection import as_words, window_text
 from support_exudyn.postprocessing.figures.units import DisplayUnit, readable
 from support_exudyn.simulation.result import Result
@@ -50,29 +50,20 @@ def orbit(result: Result, pin: str | None = None, after: float = 0.0, until: flo
     return drawing
 
 
-def bore_axes(axes: Axes, clearance: float, x: Series, y: Series, unit: DisplayUnit) -> None:
-    """Axes, true to scale, of a journal's centre in its bore: the clearance circle, and room for places.
-
-    Arguments:
-        clearance: radial [m]. x, y: places of the centre (n,) [m]. unit: of both axes.
-    """
-    angle, radius = np.linspace(0.0, 2.0 * np.pi, CORNERS), unit.scale * clearance
-    circle = radius * np.cos(angle), radius * np.sin(angle)
-    axes.plot(*circle, color=style.IDEAL, ls=(0, (4, 2)), zorder=2, label="clearance circle")
-    reach = MARGIN * unit.scale * max(clearance, float(np.hypot(x, y).max()))
-    axes.set(aspect="equal", xlim=(-reach, reach), ylim=(-reach, reach))
-    axes.set(xlabel=f"eccentricity x [{unit.name}]", ylabel=f"eccentricity y [{unit.name}]")
-
-
 def draw_path(axes: Axes, shown: JournalPath, unit: DisplayUnit) -> None:
     """The path in the colours of contact and flight, within the clearance circle, on equal axes."""
     x, y, contact = shown.path()
-    bore_axes(axes, shown.clearance, shown.x, shown.y, unit)
+    angle, bore = np.linspace(0.0, 2.0 * np.pi, CORNERS), unit.scale * shown.clearance
+    circle = bore * np.cos(angle), bore * np.sin(angle)
+    axes.plot(*circle, color=style.IDEAL, ls=(0, (4, 2)), zorder=2, label="clearance circle")
+    reach = MARGIN * unit.scale * max(shown.clearance, float(np.hypot(shown.x, shown.y).max()))
+    axes.set(aspect="equal", xlim=(-reach, reach), ylim=(-reach, reach))
+    axes.set(xlabel=f"eccentricity x [{unit.name}]", ylabel=f"eccentricity y [{unit.name}]")
     more: dict[str, Any] = {"rasterized": x.size > MANY, "zorder": 3}
     style.draw_pieces(axes, unit.scale * x, unit.scale * y, contact, WIDTHS, **more)
     if shown.impacts:
-        radius, directions = unit.scale * shown.clearance, shown.directions
-        axes.plot(radius * np.cos(directions), radius * np.sin(directions), label="impact", **IMPACT)
+        directions = shown.directions
+        axes.plot(bore * np.cos(directions), bore * np.sin(directions), label="impact", **IMPACT)
     for n, mark, name, inner in ((0, "o", "start", "white"), (-1, "s", "end", style.IDEAL)):
         place = unit.scale * shown.x[n], unit.scale * shown.y[n]
         axes.plot(*place, mark, ms=5, color=style.IDEAL, label=name, zorder=5, mfc=inner)

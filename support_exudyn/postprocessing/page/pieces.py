@@ -113,14 +113,6 @@ class ShownFigure:
     links: tuple[FileLink, ...] = ()
 
 
-@dataclass(frozen=True)
-class Cell:
-    """A cell of a table and the classes that say how it is shown."""
-
-    text: str
-    css: str
-
-
 def image(path: Path) -> str:
     """A PNG file as a data URI: made smaller if it is larger than a page can show, in a palette of colours.
 
@@ -150,22 +142,10 @@ def unbroken(text: str) -> str:
     return text.replace(" ± ", f"{HARD_SPACE}±{HARD_SPACE}").replace(" %", f"{HARD_SPACE}%")
 
 
-def heading(sheet: Sheet) -> list[Cell]:
-    """The head of a table."""
-    return [Cell(text, _alignment(sheet, n)) for n, text in enumerate(sheet.header)]
-
-
-def cells(sheet: Sheet) -> list[list[Cell]]:
-    """The rows of a table."""
-
-    def css(column: int, text: str) -> str:
-        return f"{_alignment(sheet, column)} {'short' if len(text) <= SHORT else 'long'}"
-
-    return [[Cell(text, css(column, text)) for column, text in enumerate(row)] for row in sheet.rows]
-
-
-def _alignment(sheet: Sheet, column: int) -> str:
-    return "text" if column < sheet.left_columns else "number"
+def css(sheet: Sheet, column: int, text: str | None = None) -> str:
+    """The classes of a cell of a table, or of a heading, which has no text."""
+    kind = "text" if column < sheet.left_columns else "number"
+    return kind if text is None else f"{kind} {'short' if len(text) <= SHORT else 'long'}"
 
 
 def policy(scripts: Sequence[str]) -> str:
@@ -194,5 +174,5 @@ def templates(*loaders: BaseLoader) -> Environment:
         lstrip_blocks=True,
     )
     surroundings.filters["unbroken"] = unbroken
-    surroundings.globals.update(heading=heading, cells=cells, policy=policy)
+    surroundings.globals.update(css=css, policy=policy)
     return surroundings
