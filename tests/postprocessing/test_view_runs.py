@@ -91,44 +91,6 @@ def test_it_starts_steps_through_frames_and_closes(run: Path, shown: str, displa
     assert {entry.name for entry in tmp_path.iterdir() if not entry.name.startswith(".")} <= {"rise.sol"}
 
 
-STEP = """
-import sys
-import numpy as np
-from support_exudyn import Result
-from support_exudyn.postprocessing.viewer.view import window
-result = Result.load(sys.argv[1])
-with window(result, size=(900, 600)) as shown:
-    found = {}
-    for row in (0, 150, 300):
-        shown.show(row)
-        found[f"time{row}"] = shown.time
-        found[f"picture{row}"] = shown.picture()
-np.savez(sys.argv[2], **found)
-"""
-
-
-@pytest.mark.slow
-def test_a_script_steps_through_frames_without_the_dialog(run: Path, display: str, tmp_path: Path) -> None:
-    script = [sys.executable, "-c", STEP, str(run), str(tmp_path / "context.npz")]
-    env = screen.environment_on(display, tmp_path)
-    subprocess.run(script, env=env, check=True, timeout=PATIENCE)
-    context = np.load(tmp_path / "context.npz")
-    result = Result.load(run)
-    for row in (0, 150, 300):
-        assert context[f"time{row}"] == result.time[row]
-        assert context[f"picture{row}"].shape == (600, 900, 3)
-    first, middle, last = (painted(context[f"picture{row}"]) for row in (0, 150, 300))
-    # nothing is cut off or under the words, and the machine fills the window
-    for shown in (first, middle, last):
-        columns, lines = np.flatnonzero(shown.any(axis=0)), np.flatnonzero(shown.any(axis=1))
-        assert 0 < columns.min() < columns.max() < 899
-        assert lines.max() < 599
-        assert columns.max() - columns.min() > 600
-    # it rises
-    tops = [np.flatnonzero(shown.any(axis=1)).min() for shown in (first, middle, last)]
-    assert tops[0] > tops[1] > tops[2]
-
-
 def painted(picture: np.ndarray) -> np.ndarray:
     """Where a machine is in a picture: neither white, nor the black of words, nor the axes in the corner."""
     colours = picture.astype(int)

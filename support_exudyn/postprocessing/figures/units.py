@@ -77,22 +77,6 @@ def readable_change(unit: str, size: float, change: float) -> DisplayUnit:
     return readable(unit, max(change, LITTLE * size) if change > 0.0 else size)
 
 
-def said_beside(value: float, unit: str, largest: float) -> str:
-    """A quantity to a tenth in the unit in which the largest one is read best, or in its own if that shows 0.0.
-
-    So a number that changes over time keeps its unit: "12.3 kN" and "0.0 kN", but "40.0 N".
-
-    Arguments:
-        value: zero or more.
-        unit: of both, such as "N".
-        largest: that is shown in the same place.
-    """
-    shown = readable(unit, largest)
-    if value > 0.0 and f"{shown.scale * value:.1f}" == "0.0":
-        shown = readable(unit, value)
-    return f"{shown.scale * value:.1f} {shown.name}"
-
-
 def amount(value: float, unit: str, digits: int = 3) -> str:
     """A quantity as text, in the unit in which it is read best: "0.26 ms" becomes "260 µs"."""
     shown = readable(unit, abs(value))

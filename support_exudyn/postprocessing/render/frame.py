@@ -16,7 +16,7 @@ from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.postprocessing.figures.selection import as_words, machine_name, nearest
 from support_exudyn.postprocessing.figures.style import CONTACT, FLIGHT, IDEAL, draw_pieces, pieces
-from support_exudyn.postprocessing.figures.units import readable, said_beside
+from support_exudyn.postprocessing.figures.units import readable
 from support_exudyn.postprocessing.look.shapes import COLOURS, Role
 from support_exudyn.postprocessing.render.pin_views import PinView, format_round, pin_views, usual
 from support_exudyn.postprocessing.render.stage import VIEW, Picture, Stage
@@ -182,7 +182,7 @@ class Painter:
             self._draw_journal(view, centre, radius, record, number)
         if self._pins:
             size = float(self._pins[0].size[record])
-            text = said_beside(size, "N", float(self._pins[0].size.max(initial=0.0)))
+            text = f"{self._shown.scale * size:.{1 if self._shown.scale < 1.0 else 0}f} {self._shown.name}"
             place = self._words[0], self._words[1] + 28
             self._write(place, text, 30, color=INK if size > 0.0 else FAINT, va="top", weight="bold")
             time, force = self._result.time[record], min(self._shown.scale * size, self._top)

@@ -2,8 +2,7 @@
 
 import os
 import sys
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from dataclasses import dataclass
 from importlib.util import find_spec
 from math import pi
@@ -21,7 +20,7 @@ from support_exudyn.formulations.exudyn.scene.engine_scene import INITIAL, Engin
 from support_exudyn.formulations.exudyn.scene.scene_builder import build
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.linkage import GROUND
-from support_exudyn.postprocessing.export.solution_file import Solution, check_fits, read_solution, rows
+from support_exudyn.postprocessing.export.solution_file import check_fits, read_solution, rows
 from support_exudyn.postprocessing.figures.selection import machine_name
 from support_exudyn.postprocessing.look import looks
 from support_exudyn.postprocessing.look.poses import Poses, axes_along
@@ -30,7 +29,7 @@ from support_exudyn.postprocessing.render.stage import engine_surface
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.provenance import installed
 from support_exudyn.simulation.result import Result
-from user_forces.values.value import InputError, Vector3, short
+from user_forces.values.value import Vector3
 
 Graphics = dict[str, Any]  # of the engine
 SHOWN = exudyn.ConfigurationType.Visualization
@@ -138,56 +137,6 @@ def open_viewer(
     Raises NoDisplayError, an OSError, if no window can be opened here; InputError if the run has not recorded
     where its bodies are, or the solution file is not one of its model.
     """
-    with window(result, solution=solution, name=name) as shown:
-        from exudyn.interactive import SolutionViewer  # which needs tkinter
-
-        count = int(shown.solution["nRows"])
-        step = round(count * FRAME / LASTS) if every is None else every
-        step = max(1, min(step, MOST_SKIPPED, count))
-        SolutionViewer(
-            shown.model.scene.mbs, shown.solution, rowIncrement=step, timeout=FRAME, runMode=0,
-            title=f"{_title(result, name)}: solution viewer",
-        )  # fmt: skip
-
-
-@dataclass(frozen=True)
-class Window:
-    """The engine's open window on a run, for scripts: shows any row, without the viewer's dialog.
-
-    model: what is shown. solution: the rows, as the engine's viewer takes them.
-    """
-
-    model: ViewerModel
-    solution: Solution
-
-    def show(self, row: int) -> None:
-        """Show a row, which is a record of the run; raises InputError if there is none."""
-        count = self.solution["nRows"]
-        if not 0 <= row < count:
-            raise InputError(f"row = {short(row)}: allowed: from 0 to {count - 1}")
-        SetSolutionState(self.model.scene.mbs, self.solution, row, SHOWN)
-        renderer = self.model.scene.container.renderer
-        renderer.SendRedrawSignal()
-        renderer.DoIdleTasks(0)  # what moves by itself, actuators, is drawn by Python
-
-    @property
-    def time(self) -> float:
-        """The time of what is shown [s]."""
-        return float(self.model.scene.mbs.systemData.GetTime(SHOWN))
-
-    def picture(self) -> np.ndarray:
-        """The picture in the window: RGB (height, width, 3) of 8 bits."""
-        return np.array(self.model.scene.container.renderer.RedrawAndGetImage())
-
-
-@contextmanager
-def window(
-    result: Result, *, solution: str | Path | None = None, name: str = "", size: tuple[int, int] = WINDOW
-) -> Iterator[Window]:
-    """The engine's window on a run while the block runs.
-
-    Arguments, and what is raised, are those of `open_viewer`; size: width and height of the window [pixels].
-    """
     for package in MADE_WITH:
         if (made := result.provenance.get(package, "of an unknown version")) != installed(package):
             print(
@@ -196,22 +145,27 @@ def window(
                 file=sys.stderr,
             )
     read = None if solution is None else read_solution(solution)
-    model = ViewerModel.of(result.scenario)
-    container = model.scene.container
+    model, title = ViewerModel.of(result.scenario), _title(result, name)
+    container, mbs = model.scene.container, model.scene.mbs
     try:
         if read is not None and solution is not None:
             check_fits(read, model.scene, solution)
         _check_display()
-        shown = Window(model, rows(result, model.scene) if read is None else read)
-        _prepare(container.visualizationSettings, _title(result, name), size)
+        from exudyn.interactive import SolutionViewer  # which needs tkinter
+
+        shown = rows(result, model.scene) if read is None else read
+        _prepare(container.visualizationSettings, title)
         with quiet_engine():
             container.renderer.Start()
             if not container.renderer.IsActive():
                 raise NoDisplayError(f"no window: the engine's window did not open; {INSTEAD}")
-            zoom, centre = _camera(result, model.look, size)
+            zoom, centre = _camera(result, model.look)
             container.renderer.SetModelView(zoom, FROM_THE_SIDE, centre)
-            shown.show(0)
-            yield shown
+            SetSolutionState(mbs, shown, 0, SHOWN)
+            step = round(shown["nRows"] * FRAME / LASTS) if every is None else every
+            step = max(1, min(step, MOST_SKIPPED, shown["nRows"]))
+            look: dict[str, Any] = {"timeout": FRAME, "runMode": 0, "title": f"{title}: solution viewer"}
+            SolutionViewer(mbs, shown, rowIncrement=step, **look)
     finally:
         if container.renderer.IsActive():
             container.renderer.Stop()
@@ -232,7 +186,7 @@ def _check_display() -> None:
         raise NoDisplayError(f"no window: tkinter is not installed; {INSTEAD}")
 
 
-def _camera(result: Result, look: Look, size: tuple[int, int]) -> tuple[float, list[float]]:
+def _camera(result: Result, look: Look) -> tuple[float, list[float]]:
     """Half the height that is seen at all records [m], and the centre of the view in the screen's axes [m]."""
     records, poses = np.unique(np.linspace(0, result.time.size - 1, MOST_STATES).astype(int)), Poses(result)
     corners = [
@@ -244,7 +198,7 @@ def _camera(result: Result, look: Look, size: tuple[int, int]) -> tuple[float, l
     low, high = points.min(axis=0), points.max(axis=0)
     high[1] = low[1] + (high[1] - low[1]) / (1.0 - WORDS)
     (x, y, z), (width, height, _) = 0.5 * (low + high), high - low
-    return 0.5 * MARGIN * max(height, width * size[1] / size[0]), [-x, y, -z]
+    return 0.5 * MARGIN * max(height, width * WINDOW[1] / WINDOW[0]), [-x, y, -z]
 
 
 def _title(result: Result, name: str) -> str:
@@ -255,7 +209,7 @@ def _title(result: Result, name: str) -> str:
     return ", ".join(filter(None, [name, f"{machine_name(result.scenario)} {space}", by]))
 
 
-def _prepare(settings: Any, text: str, size: tuple[int, int]) -> None:
+def _prepare(settings: Any, text: str) -> None:
     """Show the machine, its time and its name, and no other items of the engine."""
     for group in (settings.nodes, settings.markers, settings.connectors, settings.loads, settings.sensors):
         group.show = False
@@ -264,7 +218,7 @@ def _prepare(settings: Any, text: str, size: tuple[int, int]) -> None:
     settings.general.showSolutionInformation = False
     settings.general.showHelpOnStartup = 0
     settings.view0.scene.showFaceEdges = False
-    settings.view0.window.renderWindowSize = list(size)
+    settings.view0.window.renderWindowSize = list(WINDOW)
     settings.view0.window.showComputationInfo = True
     settings.openGL.multiSampling = 4
     settings.openGL.lineWidth = 2.0
