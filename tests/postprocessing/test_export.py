@@ -181,7 +181,7 @@ def with_channels(*channels: str) -> Result:
 
 def test_a_run_without_the_motion_of_its_bodies_is_refused(tmp_path: Path) -> None:
     for channels, lacking in (
-        (("tip.*", "pin.*"), r"\w+\.x"),
+        (("tip.*", "pin.*"), r"\w+\.angle"),
         (("tip.*", "*.x", "*.y", "*angle", "*velocity*"), r"pin\.\w+\.force_x"),
     ):
         with pytest.raises(InputError, match=f"'{lacking}': was not recorded"):

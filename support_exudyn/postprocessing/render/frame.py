@@ -118,7 +118,7 @@ class Painter:
             text = f"\u00d7 {format_round(view.enlargement)}"
             if columns > 1:
                 self._write(
-                    (x + 4, y + 3), f"{as_words(view.name)} {text}", min(10, 13 / columns + 3), va="top"
+                    (x + 4, y + 3), f"{as_words(view.name)} {text}", 24 / columns, va="top"
                 )
             else:
                 self._write((x + GAP, y + GAP), f"clearance {text}", 14, va="top", weight="bold")
