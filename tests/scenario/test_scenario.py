@@ -90,33 +90,23 @@ def test_an_accuracy_is_a_word_or_a_number(accuracy: str | float | None, goal: f
     assert scenario(accuracy=accuracy).goal == goal
 
 
-def test_of_a_scenario_with_an_accuracy_that_is_refined() -> None:
-    # errors are of second order in the steps; settings are chosen anew, so they stay
-    coarse = scenario(accuracy="draft", solver=SolverSettings(impact_steps=9000))
-    for formulation in ("auto", "exudyn", "compiled"):
-        one = dataclasses.replace(coarse, formulation=formulation)
-        assert one.refined() == dataclasses.replace(one, accuracy=2.5e-3)
-    assert scenario(accuracy=2e-8).refined().accuracy == 1e-8
-
-
-def test_a_tolerance_is_refined_where_it_decides() -> None:
-    one = scenario(formulation="compiled", solver=SolverSettings(tolerance=8e-7))
-    assert one.refined().solver.tolerance == pytest.approx(1e-7, rel=1e-12)
-    assert dataclasses.replace(one.refined(), solver=one.solver) == one
-    finest = dataclasses.replace(one, solver=SolverSettings(tolerance=2e-13)).refined()
-    assert finest.solver.tolerance == 1e-13
-    assert finest.refined() == finest
-
-
-# --- the same run with all steps shorter ---
-
-
-def test_a_refined_run_has_half_the_step_and_twice_the_steps_in_an_impact() -> None:
-    finer = scenario(step=1e-3, solver=SolverSettings(impact_steps=100)).refined()
-    assert finer.step == 5e-4
-    assert finer.solver.impact_steps == 200
-    # steps end at records, so one of 5 ms is one of 1 ms here
-    assert scenario(step=5e-3, record_period=1e-3).refined().step == 5e-4
+@pytest.mark.parametrize("formulation", ["auto", "exudyn", "compiled"])
+def test_a_refined_run_has_half_the_step_or_a_smaller_tolerance_or_accuracy(formulation: str) -> None:
+    # errors are of second order in the steps; where an accuracy is asked for, settings are chosen anew and stay
+    coarse = scenario(accuracy="draft", formulation=formulation, solver=SolverSettings(impact_steps=9000))
+    assert coarse.refined() == dataclasses.replace(coarse, accuracy=2.5e-3)
+    assert dataclasses.replace(coarse, accuracy=2e-8).refined().accuracy == 1e-8
+    solver = SolverSettings(impact_steps=100, tolerance=8e-7)
+    finer = scenario(step=1e-3, formulation=formulation, solver=solver).refined()
+    if formulation == "compiled":
+        assert (finer.step, finer.solver.tolerance) == (1e-3, pytest.approx(1e-7, rel=1e-12))
+        finest = dataclasses.replace(finer, solver=SolverSettings(tolerance=2e-13)).refined()
+        assert finest.solver.tolerance == 1e-13
+        assert finest.refined() == finest
+    else:
+        assert (finer.step, finer.solver.impact_steps) == (5e-4, 200)
+        # steps end at records, so one of 5 ms is one of 1 ms here
+        assert scenario(step=5e-3, record_period=1e-3, formulation=formulation).refined().step == 5e-4
 
 
 def test_an_ideal_pin_must_be_closed_at_the_start() -> None:
