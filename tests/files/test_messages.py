@@ -182,9 +182,9 @@ mass_kg = 3 => mass_kg = 3; centre_mm = [200, 0] ~> bodies.coupler.inertia_kg_m2
 ["ground", "crank"] => ["crank", "crank"] ~> two different bodies
 ["ground", "crank"] => ["ground"] -> pins.O = ['ground']: allowed: a list of 2, each a text
 at = "B" => at = "C" ~> pins.B.at = 'C': bodies.coupler, which has a frame of its own,
-motor = "crank" => motor = "crank"; b = "rocker" ~> cranks.motor, cranks.b: one drive too
+motor = "crank" => motor = "crank"; b = "rocker" ~> cranks.motor, cranks.b: too many drives, 2
 tip = [ => crank = [ ~> traced_points.crank: bodies.crank has this
-{ crank = 0 } => { krank = 0 } ~> start.angle_deg.krank: unknown body 'krank'; did you mean 'crank'?
+{ crank = 0 } => { krank = 0 } ~> start.angle_deg = 'krank': there is no such body; did you mean 'crank'?
 length_mm = 400 => length_mm = 40 ~> does not close
 == ON_A_GUIDE
 body = "slider" => body = "slider"; on = "slider" ~> guides.guide.on = 'slider': is what slides
@@ -197,8 +197,8 @@ angle_deg = { crank = 30 } => angle_deg = { crank = 30 }; angular_velocity_rad_p
 == LOADED
 "coupler"]; at = ["O => "cupler"]; at = ["O ~> no such body; did you mean 'coupler'?
 at = ["O", "M"] => at = ["Z", "M"] ~> springs.between.at[0] = 'Z'
-"rocker"]; stiff => "rock"]; stiff ~> unknown body 'rock'; did you mean 'rocker'?
-body = "rocker"; torque => body = "rock"; torque ~> torques.pull.body.rock: unknown body
+"rocker"]; stiff => "rock"]; stiff ~> twist.bodies = 'rock': there is no such body
+body = "rocker"; torque => body = "rock"; torque ~> torques.pull.body = 'rock': there is no such body
 [torques.pull] => [torques.push] ~> forces.push: torques.push has this name
 == JournalBearing
 bore_radius_mm = 60; clearance_mm = -1 ~> clearance_mm = -1: allowed: > 0

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import field, replace
 from typing import Annotated, Literal
 
@@ -20,6 +20,7 @@ from support_exudyn.files.machines.linkage_loads import (
     LinkageTorqueData,
     LinkageTorsionData,
 )
+from support_exudyn.files.machines.parts import check_known
 from support_exudyn.files.toml.shapes import Names
 from support_exudyn.machines.check.statics import mobility
 from support_exudyn.machines.machine_data import MachineData
@@ -30,7 +31,6 @@ from support_exudyn.mechanics.postures import set_moving
 from support_exudyn.model.linkage import GROUND, Crank, Linkage, TracePoint
 from support_exudyn.model.loads.load import ActingLoad
 from support_exudyn.model.plane_geometry import distance
-from user_forces.values.names import unknown
 from user_forces.values.units import Metres, Radians, RadiansPerSecond
 from user_forces.values.value import InputError, Positive, Real, Value, Vector2, check_names, value
 
@@ -129,7 +129,7 @@ class LinkageFile(Value):
             slides={name: guide for name, (guide, _) in guides.items()},
             gears={name: places.gear(name, gear) for name, gear in self.gears.items()},
         )
-        self._check_names(drawing)
+        self._check_names(drawing, places)
         origins = {name: origin for name, (_, origin) in guides.items()}
         held = {body for name, body in self._on_springs()}
         angles = self.start.angle
@@ -202,22 +202,24 @@ class LinkageFile(Value):
         acting |= {name: one.load() for name, one in self.torques.items()}
         return acting | {name: one.load(at[f"forces.{name}.at"]) for name, one in self.forces.items()}
 
-    def _check_names(self, linkage: Linkage) -> None:
+    def _check_names(self, linkage: Linkage, places: DrawnPoints) -> None:
         """Raise InputError where something is said of what is not there, or two things share a name."""
         for what in ("drawing", "pins", "cranks", *NAMED):
             check_names(what, getattr(self, what))
-        of_pins = {"bore_radius_mm": self.bore_radius, "width_mm.pins": self.width.get("pins", {})}
-        for where, named in of_pins.items():
-            _check_known(where, named, linkage.pins, "pin")
-        _check_known("start.angle_deg", self.start.angle, linkage.bodies, "body")
-        _check_known("start.angular_velocity", self.start.angular_velocity, linkage.bodies, "body")
-        _check_known("start.length_mm", self.start.length, linkage.actuators, "actuator")
+        for where, named, known, what in (
+            ("bore_radius_mm", self.bore_radius, linkage.pins, "pin"),
+            ("width_mm.pins", self.width.get("pins", {}), linkage.pins, "pin"),
+            ("start.angle_deg", self.start.angle, linkage.bodies, "body"),
+            ("start.angular_velocity", self.start.angular_velocity, linkage.bodies, "body"),
+            ("start.length_mm", self.start.length, linkage.actuators, "actuator"),
+        ):
+            for name in named:
+                check_known(where, name, known, f"there is no such {what}")
         for name, torque in self.torques.items():
-            bodies = {"body": torque.body, "against": torque.against}
-            for key, body in bodies.items():
-                _check_known(f"torques.{name}.{key}", [body], (GROUND, *linkage.bodies), "body")
+            places.body(torque.body, f"torques.{name}.body")
+            places.body(torque.against, f"torques.{name}.against")
         for where, body in self._on_springs():
-            _check_known(f"{where}.bodies", [body], (GROUND, *linkage.bodies), "body")
+            places.body(body, f"{where}.bodies")
         taken: dict[str, str] = {}
         for what in NAMED:
             for name in getattr(self, what):
@@ -233,16 +235,6 @@ def _check_driven(linkage: Linkage) -> None:
         driven = [f"actuators.{name}" for name, one in linkage.actuators.items() if one.driven]
         driven += [f"cranks.{name}" for name in linkage.cranks]
         raise InputError(
-            f"{', '.join(driven)}: {_too_many(free.driven - free.free)}, {free.driven} driven parts fight over "
+            f"{', '.join(driven)}: too many drives, {free.driven} driven parts fight over "
             f"{free.free} degrees of freedom; allowed: at most {free.free}"
         )
-
-
-def _too_many(count: int) -> str:
-    return "one drive too many" if count == 1 else f"{count} drives too many"
-
-
-def _check_known(where: str, named: Iterable[str], known: Iterable[str], what: str) -> None:
-    for name in named:
-        if name not in known:
-            raise InputError(f"{where}.{name}: {unknown(what, name, known)}")

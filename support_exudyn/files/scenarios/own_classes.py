@@ -10,7 +10,7 @@ from types import ModuleType
 from typing import Any
 
 from support_exudyn.files.own_modules import ENDING, file_of, refusal
-from support_exudyn.files.toml.faults import Faults, Place, place_text, quoted
+from support_exudyn.files.toml.faults import Faults, Place, quoted
 from user_forces.values.value import DEEPEST, InputError, Value, kinds_of
 
 KEYS = ("type", "law", "friction_law", "damping")  # whose texts are names of classes
@@ -39,7 +39,7 @@ def _inside(key: str, item: Any, place: Place, faults: Faults, folder: Path) -> 
     try:
         _check_class(_module(found["module"], folder, found["name"]), found["name"])
     except InputError as error:
-        faults.add((), f"{place_text(place)} = {quoted(item)}: {error}")
+        faults.refuse(place, item, str(error))
     return found["name"]
 
 

@@ -33,12 +33,7 @@ REFUSED = (  # how files begin that are no tables, what they are, and what to do
     (rb"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1", "an old workbook of Excel (.xls)", WORKBOOK),
     (rb"TDSm", "a TDMS file of LabVIEW", "its channels as CSV, as npTDMS and LabVIEW write it, or .lvm"),
     (rb"\x1f\x8b", "a compressed file (gzip)", UNPACKED),
-    (rb"BZh|\xfd7zXZ|7z\xbc\xaf|Rar!|\x28\xb5\x2f\xfd", "a compressed file", UNPACKED),
     (rb"PK\x03\x04", "an archive (zip)", f"{UNPACKED}; of spreadsheets CSV"),
-    (rb"%PDF", "a PDF document", "the table as CSV"),
-    (rb"\x93NUMPY", "an array of NumPy", "numpy.savetxt with a line of titles"),
-    (rb"MDF |UnFinMF", "a file of measured data of ASAM (MDF)", "its channels as CSV or .mat"),
-    (rb"SQLite format 3", "a database of SQLite", "the table as CSV"),
     (rb"(?si)[^<]{0,9}<(!doctype html|html|table|meta|head|body|style)\b", "a page of HTML", WORKBOOK),
     (rb"(?s)[^<]{0,9}<.{0,900}schemas-microsoft-com:office:spreadsheet", "a workbook as XML", WORKBOOK),
 )  # fmt: skip
