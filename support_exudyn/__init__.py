@@ -24,7 +24,6 @@ from user_forces.values.places import for_types, keep_classes, offered
 if TYPE_CHECKING:
     from support_exudyn.files.machines import cylinders_and_rods as cylinders_and_rods
     from support_exudyn.files.machines import load_machine as load_machine
-    from support_exudyn.files.machines import load_support as load_support
     from support_exudyn.files.machines import machine as machine
     from support_exudyn.files.machines import reference_support as reference_support
     from support_exudyn.files.own_modules import trusted as trusted

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from support_exudyn import HydraulicSupport, SliderCrank, load_support, reference_support
+from support_exudyn import HydraulicSupport, SliderCrank, reference_support
 from support_exudyn.files.machines import load_machine, read_machine
 from support_exudyn.machines.two_leg_shield import TwoLegShield
 from support_exudyn.model.linkage import lumped
@@ -45,7 +45,7 @@ def test_the_full_size_support_has_the_published_pivots() -> None:
         "hinge": (3.488, -1.218),
         "rear_foot": (0.264, -0.446),  # read off the drawing
     }
-    large = load_support("zf18000")
+    large = load_machine("zf18000").machine
     for name, (height, ahead) in published.items():
         assert tuple(1e3 * x for x in getattr(large, name)) == pytest.approx(
             (1e3 * ahead + 1862, 1e3 * height), abs=1e-9
@@ -67,7 +67,7 @@ def test_the_full_size_support_has_the_published_pivots() -> None:
 
 
 def test_the_reference_is_the_full_size_support_times_0_65() -> None:
-    large, small = load_support("zf18000"), reference_support()
+    large, small = load_machine("zf18000").machine, reference_support()
     for name in HydraulicSupport.pivots():
         off = 3.0e-3 if name == "rear_foot" else 5.001e-4  # read off a drawing; rounded to 1 mm
         assert getattr(small, name) == pytest.approx(tuple(0.65 * x for x in getattr(large, name)), abs=off)

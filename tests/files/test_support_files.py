@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from support_exudyn import RigidActuator, cylinders_and_rods, load_support, reference_support
+from support_exudyn import RigidActuator, cylinders_and_rods, load_machine, reference_support
 from support_exudyn.model.linkage import lumped
 from tests.cases.machine_cases import PARTS, PIVOTS, PIVOTS_MM, support
 
@@ -59,7 +59,7 @@ def test_reference_support_has_the_published_pivots_and_parts() -> None:
 
 
 def test_a_file_is_read_into_metres_and_kilograms_and_its_parts_are_bars(tmp_path: Path) -> None:
-    machine = load_support(written(tmp_path))
+    machine = load_machine(written(tmp_path)).machine
     # one rounding from mm to m
     assert machine.tip == pytest.approx((3.219, 2.417), abs=1e-15)
     assert machine.start_hinge_height == 1.8
@@ -102,4 +102,4 @@ def test_columns_are_read_from_a_file(tmp_path: Path) -> None:
     path.write_text(FILE + COLUMN, encoding="utf-8")
     (column,) = cylinders_and_rods(path=path).values()
     assert column.rod_centre == pytest.approx(0.4, rel=1e-15)
-    assert load_support(path).tail_hinge is None
+    assert load_machine(path).machine.tail_hinge is None

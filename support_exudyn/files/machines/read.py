@@ -136,19 +136,6 @@ def reference_support() -> HydraulicSupport:
     return cast("HydraulicSupport", shipped("reference").machine)
 
 
-def load_support(path: str | Path) -> HydraulicSupport:
-    """Read the data file of a four-column support into SI; for other kinds see `load_machine`.
-
-    Arguments and errors as of `load_machine`.
-    """
-    from support_exudyn.machines.four_column_support import HydraulicSupport
-
-    machine = load_machine(path).machine
-    if not isinstance(machine, HydraulicSupport):
-        raise InputError(f"{path}: kind: is another machine; allowed: 'four_column_support'")
-    return machine
-
-
 def cylinders_and_rods(
     drive: RigidActuator | OilColumn | None = None, path: str | Path | None = None
 ) -> dict[str, CylinderAndRod]:
