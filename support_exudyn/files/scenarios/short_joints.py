@@ -5,6 +5,7 @@ Laws and materials are named. A law that needs more than a stiffness and a resti
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from abc import ABC
 from collections.abc import Mapping
@@ -25,7 +26,7 @@ from user_forces.friction.laws import Frictionless
 from user_forces.materials import STEEL, STEEL_35CRMO, Material
 from user_forces.normal.hysteresis import without_damping_speed
 from user_forces.normal.law import NormalLaw
-from user_forces.normal.power_laws import ElasticPower, Exact
+from user_forces.normal.power_laws import ElasticPower
 from user_forces.values.units import Metres, MetresPerSecond, NewtonsPerMetre, NewtonsPerMetreToN
 from user_forces.values.value import (
     Coefficient,
@@ -122,9 +123,16 @@ class ShortContact(Value, ABC):
         return self
 
     @property
-    def law_class(self) -> Any:
-        """Class of the normal law; None for the usual one."""
-        return None if self.law is None else kinds_of(NormalLaw)[self.law]
+    def asked(self) -> dict[str, Any]:
+        """What is given, as arguments of `simple`: laws and materials in place of their names."""
+        given = {one.name: getattr(self, one.name) for one in dataclasses.fields(self)}
+        for name, item in given.items():
+            if name.endswith("_material") and isinstance(item, str):
+                given[name] = MATERIALS[item]
+        given["law"] = None if self.law is None else kinds_of(NormalLaw)[self.law]
+        given["friction"] = self.chosen_friction
+        del given["friction_law"]
+        return {name: item for name, item in given.items() if item is not None}
 
     @property
     def chosen_friction(self) -> float | FrictionLaw:
@@ -147,13 +155,6 @@ class ShortContact(Value, ABC):
         """The friction law of the joint without clearance; None without friction."""
         law = friction_of(self.chosen_friction)
         return None if isinstance(law, Frictionless) else law
-
-
-def _material(given: str | Material | None, usual: Material) -> Material:
-    """A material by its name, or as it is; the usual one if none is given."""
-    if given is None:
-        return usual
-    return given if isinstance(given, Material) else MATERIALS[given]
 
 
 @value
@@ -216,13 +217,12 @@ def pin_in_machine(short: ShortPin, machine: Machine, name: str, bore_radius: fl
 
     Raises InputError, in the keys and units of files, if the journal fills the bore or a length is missing.
     """
-    law, length, radius = short.law_class, short.length, short.radius(bore_radius)
+    asked, length, radius = short.asked, short.length, short.radius(bore_radius)
     if short.clearance >= radius:
         raise InputError(
             f"clearance_mm = {1e3 * short.clearance:g}: leaves no journal in a bore of bore_radius_mm = "
             f"{1e3 * radius:g}; allowed: > 0 and < {1e3 * radius:g}"
         )
-    bore, journal = _material(short.bore_material, STEEL), _material(short.journal_material, STEEL_35CRMO)
     is_known = name in machine.linkage().pins
     if length is None and is_known:
         length = contact_length(machine, name)
@@ -231,32 +231,21 @@ def pin_in_machine(short: ShortPin, machine: Machine, name: str, bore_radius: fl
             "length_mm: missing, and the machine's file has none for this pin below [width_mm.pins]; "
             "allowed: > 0, here or there"
         )
-    along = on_cylinders(short.stiffness, length, law)
+    along = on_cylinders(short.stiffness, length, asked.get("law"))
     if short.backing_stiffness is not None and not along:
         raise InputError(
             'backing_stiffness: is of stiffness = "cylinders" alone; allowed without it: to leave this out'
         )
-    backing = math.inf if short.backing_stiffness == "rigid" else short.backing_stiffness
-    if not isinstance(backing, float):
-        backing = None
-        if along and length is not None:
+    if along and length is not None:
+        asked["length"] = length
+        if short.backing_stiffness == "rigid":
+            asked["backing_stiffness"] = math.inf
+        elif not isinstance(short.backing_stiffness, float):
+            bore, journal = asked.get("bore_material", STEEL), asked.get("journal_material", STEEL_35CRMO)
             links = links_stiffness(machine, name, bore) if is_known else math.inf
-            backing = in_series((pin_stiffness(radius - short.clearance, length, journal), links))
-    return ClearancePin.simple(
-        clearance=short.clearance,
-        bore_radius=radius,
-        restitution=short.restitution,
-        friction=short.chosen_friction,
-        law=law,
-        rest_velocity=short.rest_velocity,
-        stiffness=short.stiffness,
-        length=length if along else short.length,
-        backing_stiffness=backing,
-        bore_material=bore,
-        journal_material=journal,
-        bore=short.bore,
-        eccentricity=short.eccentricity,
-    )
+            of_pin = pin_stiffness(radius - short.clearance, length, journal)
+            asked["backing_stiffness"] = in_series((of_pin, links))
+    return ClearancePin.simple(**asked | {"bore_radius": radius})
 
 
 @value
@@ -305,16 +294,5 @@ class ShortGuide(ShortContact):
                 "block_mm: missing, and the machine's file says none for this guide; "
                 "allowed: [length, height], or pin_radius_mm of a pin"
             )
-        return ClearanceGuide.simple(
-            gaps=self.clearance,
-            block=shape,
-            pin_radius=self.pin_radius,
-            restitution=self.restitution,
-            friction=self.chosen_friction,
-            law=self.law_class or Exact,
-            rest_velocity=self.rest_velocity,
-            stiffness=self.stiffness,
-            corner_radius=self.corner_radius,
-            wall_material=_material(self.wall_material, STEEL),
-            block_material=_material(self.block_material, STEEL_35CRMO),
-        )
+        asked = self.asked
+        return ClearanceGuide.simple(gaps=asked.pop("clearance"), **asked | {"block": shape})
