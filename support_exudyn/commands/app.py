@@ -22,15 +22,9 @@ COMMANDS = {  # by group: of every command its module and a line of what it does
     "Before a run": {
         "init": ("before_runs", "write a commented set of files to start from: machine, scenarios, sweep"),
         "check": ("before_runs", "draw a machine; report mobility, dead centres, static forces, and doubts"),
-        "stand": (
-            "before_runs",
-            "what a support must stand: support force, yield, buckling, tipping, on a page",
-        ),
+        "stand": ("before_runs", "what a support must stand: its force, yield, buckling, tipping, on a page"),
         "channels": ("before_runs", "all channels of a scenario or a machine: names, units, meanings"),
-        "schema": (
-            "before_runs",
-            "all keys of scenario or machine files, as a table or a JSON Schema for editors",
-        ),
+        "schema": ("before_runs", "keys of scenario or machine files, as a table or a JSON Schema for editors"),
     },
     "Run": {
         "run": ("runs", "simulate a scenario's file and save the run"),
@@ -58,14 +52,16 @@ COMMANDS = {  # by group: of every command its module and a line of what it does
         "docs": ("before_runs", "build the documentation as a site; needs the extra [docs]"),
     },
 }
-EPILOGUE = """\
-COMMAND --help lists what a command takes; options may stand before, between and behind its names. Results go to
-standard output, progress and warnings to standard error. Files are written whole or not at all.
+HELP = (
+    "COMMAND --help lists what a command takes; options may stand before, between and behind names. Results "
+    "go to standard output, progress and warnings to standard error. Files are written whole or not at all."
+)
+EPILOGUE = f"""{HELP}
 
 Exit codes:
 
 - 0: done
-- 1: not done, for a reason that is printed in one line; of compare: something is not within its tolerance
+- 1: not done, for a reason that is printed in one line; of compare: not within tolerance
 - 2: the command line cannot be read; of compare: nothing was compared
 - 3: a sweep is done, but some of its runs failed
 - 130: interrupted
@@ -82,14 +78,16 @@ app = cli.new_app(
     INSTALLED,
     "Dynamics of linkages with clearance in their joints.",
     help_epilogue=EPILOGUE,
+    help_format="plaintext",  # the library for markdown takes as long to import as all the rest
     version=_versions,
     version_format="plaintext",
 )
+MARKDOWN = {"help_epilogue": "", "help_format": "markdown"}  # of a single command
 for _title, _commands in COMMANDS.items():
     _group = Group.create_ordered(_title)
     for _name, (_module, _does) in _commands.items():
         _place = f"{__package__}.{_module}:{_name}"
-        app.command(_place, name=_name, help=f"{_does[:1].upper()}{_does[1:]}.", group=_group, help_epilogue="")
+        app.command(_place, name=_name, help=f"{_does[:1].upper()}{_does[1:]}.", group=_group, **MARKDOWN)
 app.register_install_completion_command(name="--install-completion", group="Completion")
 
 

@@ -61,26 +61,20 @@ def output(*endings: str, folder: bool = True) -> Parameter:
 
     def check(type_: object, out: Path | None) -> None:
         del type_
-        is_other = out is not None and _has_ending(out) and out.suffix.lower() not in endings
-        if is_other and not (folder and out is not None and out.is_dir()):
+        if out is not None and is_file(out) and out.suffix.lower() not in endings:
             where = " or a folder, without an ending" if folder else ""
             raise ValueError(f"allowed: a file that ends in {', '.join(endings)}{where}")
 
     return Parameter(validator=check)
 
 
-def _has_ending(path: Path) -> bool:
-    """Whether a name has an ending, which begins with a letter: "x.csv" has, "clearance_1.5mm" has none."""
-    return path.suffix[1:2].isalpha()
+def is_file(out: Path | None) -> bool:
+    """Whether an output is a file, with an ending as "x.csv", no folder; "clearance_1.5mm" has no ending."""
+    return out is not None and not out.is_dir() and out.suffix[1:2].isalpha()
 
 
 PICTURES = (".png", ".pdf", ".svg")
 FIGURES = output(*PICTURES)
-
-
-def is_file(out: Path | None) -> bool:
-    """Whether an output with several possible endings is a file; otherwise it is a folder."""
-    return out is not None and not out.is_dir() and _has_ending(out)
 
 
 def new_app(name: str, about: str, **settings: Any) -> App:
@@ -88,13 +82,12 @@ def new_app(name: str, about: str, **settings: Any) -> App:
     return App(
         name=name,
         help=about,
-        help_format="markdown",
         default_parameter=Parameter(negative=(), show_default=False),
         print_error=False,
         exit_on_error=False,
         result_action="return_value",
         suppress_keyboard_interrupt=False,
-        **settings,
+        **{"help_format": "markdown"} | settings,
     )
 
 

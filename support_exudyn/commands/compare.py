@@ -13,7 +13,6 @@ if TYPE_CHECKING:
     from support_exudyn.postprocessing.comparing.baselines import CheckedScenario
 
 DIFFERENT, REFUSED = 1, 2  # exit codes
-FEWEST = 2  # files
 SHOWN = 12  # changes of a scenario that are printed
 
 
@@ -60,43 +59,35 @@ def compare(
         for file in files:
             if file.suffix.lower() == ".toml":
                 raise InputError(f"{file}: is no file that is compared; allowed: --map {file}")
-        if len(files) < FEWEST:
+        if len(files) == 1:
             rest = f"; {channels[0]} is no file that is there, so it is taken for a channel" if channels else ""
             raise InputError(
                 f"{files[0]}: is the only file{rest}; allowed: two files or more, the first is the reference"
             )
         with cli.shown_progress("reading") as progress:
             compared = compare_files(
-                *files,
-                channels=channels,
-                mapping=map,
-                tolerance=tolerance or (),
-                after=after,
-                until=until,
-                find_shift=shift,
-                rate=rate,
-                progress=progress,
-            )
-        written: list[Path] = []
-        for path, write in (
-            (csv, tables.write_csv),
-            (junit, tables.write_junit),
-            (figure, compare_page.write_figure),
-            (page, compare_page.write_page),
-        ):
-            if path is not None:
-                write(compared, path)
-                written.append(path)
+                *files, channels=channels, mapping=map, tolerance=tolerance or (), after=after, until=until,
+                find_shift=shift, rate=rate, progress=progress,
+            )  # fmt: skip
+        writers = {
+            csv: tables.write_csv,
+            junit: tables.write_junit,
+            figure: compare_page.write_figure,
+            page: compare_page.write_page,
+        }
+        written = [path for path in writers if path is not None]
+        for path in written:
+            writers[path](compared, path)
         if json:
             cli.answer(tables.as_data(compared) | {"written": written})
-        else:
-            for pair in compared.pairs:
-                sheet = tables.table(pair)
-                header = [head if n < sheet.left else f">{head}" for n, head in enumerate(sheet.header)]
-                cli.show_table(sheet.title, header, sheet.rows)
-                for line in (*tables.notes(pair), *pair.faults):
-                    cli.say(line)
-            cli.say("\n".join([tables.conclusion(compared), *(str(path) for path in written)]))
+            return DIFFERENT if compared.failed else 0
+        for pair in compared.pairs:
+            sheet = tables.table(pair)
+            header = [head if n < sheet.left else f">{head}" for n, head in enumerate(sheet.header)]
+            cli.show_table(sheet.title, header, sheet.rows)
+            for line in (*tables.notes(pair), *pair.faults):
+                cli.say(line)
+        cli.say("\n".join([tables.conclusion(compared), *(str(path) for path in written)]))
         return DIFFERENT if compared.failed else 0
 
     return cli.answered(work, REFUSED)
@@ -146,19 +137,17 @@ def baseline(
                 }
                 for each in checked
             })  # fmt: skip
-        elif action == "make":
-            for each in checked:
-                if each.name in written:
-                    cli.say(f"{written[each.name]}: {_counts(each)}")
-            if there:
-                cli.say(f"left as they are: {', '.join(there)}; `check` compares them, `update` changes them")
         else:
             for each in checked:
-                _report(each)
+                if action != "make":
+                    cli.say("\n  ".join(_report(each)))
                 if each.name in written:
-                    cli.say(f"{written[each.name]}: {'removed' if each.now is None else 'written'}")
-            counts = Counter(each.state for each in checked)
-            cli.say(", ".join(f"{number} {state}" for state, number in counts.items()))
+                    cli.say(f"{written[each.name]}: {_counts(each)}")
+            if action != "make":
+                counts = Counter(each.state for each in checked)
+                cli.say(", ".join(f"{number} {state}" for state, number in counts.items()))
+            elif there:
+                cli.say(f"left as they are: {', '.join(there)}; `check` compares them, `update` changes them")
         if left and action == "make":
             cli.warn("\n".join(f"{each.name}: not made, {_state(each)}" for each in left))
         if left and action == "update":
@@ -169,8 +158,9 @@ def baseline(
 
 
 def _counts(checked: "CheckedScenario") -> str:
-    """How much is kept of a run, and up to when."""
-    assert checked.now is not None
+    """How much is kept of a run, and up to when; nothing of a scenario that is gone."""
+    if checked.now is None:
+        return "removed"
     words = f"{len(checked.now.numbers)} numbers, {len(checked.now.curves)} channels"
     if math.isfinite(checked.now.horizon):
         words += f"; determined up to {checked.now.horizon:.4g} s, nothing is kept beyond"
@@ -188,14 +178,14 @@ def _state(checked: "CheckedScenario") -> str:
     return states.get(checked.state) or f"nothing changed ({_counts(checked)})"
 
 
-def _report(checked: "CheckedScenario") -> None:
-    """Print the state of a scenario, what has changed, and with what else its baseline was made."""
+def _report(checked: "CheckedScenario") -> list[str]:
+    """Lines on the state of a scenario, what has changed, and with what else its baseline was made."""
     from support_exudyn.postprocessing.comparing.baselines import lines
 
-    cli.say(f"{checked.name}: {_state(checked)}")
-    if checked.state == "changed" and checked.was is not None and checked.now is not None:
+    told = [f"{checked.name}: {_state(checked)}", *lines(checked.changes, SHOWN)]
+    if checked.changes and checked.was is not None and checked.now is not None:
         was, now = checked.was.provenance, checked.now.provenance
         others = [key for key in was if key != "made_at" and was[key] != now.get(key)]
         words = ", ".join(f"{key} {was[key][:40]} (now {now.get(key, 'none')[:40]})" for key in others)
-        for line in (*lines(checked.changes, SHOWN), *([f"made with {words}"] if words else [])):
-            cli.say(f"  {line}")
+        told += [f"made with {words}"] if words else []
+    return told

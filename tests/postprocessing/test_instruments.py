@@ -65,7 +65,7 @@ def second_order(t: np.ndarray, w: float) -> np.ndarray:
 
 
 @pytest.mark.parametrize(("order", "response"), [(1, first_order), (2, second_order)])
-@pytest.mark.parametrize("corner", [0.7, 5.0, 40.0])
+@pytest.mark.parametrize("corner", [0.7, 40.0])
 def test_a_filter_answers_a_step_as_its_closed_form(order: int, response: object, corner: float) -> None:
     # a straight line between two records: the step is a ramp, whose answer is a difference of integrals
     h = 1e-3
@@ -135,7 +135,6 @@ def test_a_hydraulic_cylinder_tells_its_pressures() -> None:
         (PressureGauge(column="front_colum", bore=0.25), "no such actuator; did you mean 'front_column'"),
         (PressureGauge(column="rear_column", bore=0.25), "'rear_column.force': was not recorded"),
         (Inclinometer(body="canopy", at="front_base"), "no such place on canopy"),
-        (Inclinometer(body="canopy"), "'canopy.angle': was not recorded"),
     ],
 )
 def test_what_is_missing_is_asked_for(gauge: Instrument, said: str) -> None:
@@ -144,11 +143,18 @@ def test_what_is_missing_is_asked_for(gauge: Instrument, said: str) -> None:
     assert str(told.value).startswith("one: ")
 
 
-def test_extension_is_measured_from_the_start() -> None:
+@pytest.mark.parametrize("side", ["length", "pressure"])
+def test_extension_is_measured_from_the_start_and_oil_by_its_bore(side: str) -> None:
     start = REST.linkage.actuators["front_column"].start_length
     run = synthetic.result(REST, TIME, {"front_column.length": (start + TIME, "m")})
-    extension = read(run, ExtensionSensor(column="front_column", rate=1000.0))
-    np.testing.assert_allclose(extension, TIME, atol=1e-14)
+    if side == "length":
+        found = read(run, ExtensionSensor(column="front_column", rate=1000.0))
+        np.testing.assert_allclose(found, TIME, atol=1e-14)
+        return
+    scenario = Scenario(machine=reference_support(), actuators={"front_column": OIL}, duration=1.0)
+    run = pushed(np.full(TIME.size, 5e5), scenario)
+    for gauge in (PressureGauge(column="front_column"), PressureGauge(**BORE, cylinders=2)):
+        np.testing.assert_allclose(read(run, gauge) * OIL.bore_area, 5e5, rtol=1e-14)
 
 
 # --- samples, noise, digits, clock ---

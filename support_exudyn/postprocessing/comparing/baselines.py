@@ -1,4 +1,4 @@
-"""Baselines: kept numbers and curves of runs with their errors, and what has changed since.
+"""Baselines: kept numbers and curves of runs, compared with their errors as tolerance; a folder of them.
 
 The file is JSON with a line for each number and curve, so that its versions can be compared. A number
 is a text of its value, its error and its unit; a curve is a text of its values.
@@ -29,7 +29,7 @@ from support_exudyn.simulation.provenance import provenance
 from support_exudyn.simulation.result import Result
 from support_exudyn.simulation.simulate import simulate
 from support_exudyn.sweeps.key import own_sources, program
-from user_forces.values.value import InputError, cleaned
+from user_forces.values.value import InputError, cleaned, short
 
 FOLDER, ENDING = "baseline", ".json"  # of baselines next to scenarios and tests
 RECORDS = 100  # of every curve that are kept
@@ -37,20 +37,15 @@ FORMAT = "support_exudyn baseline 2"
 MOST = 100_000_000  # bytes
 DIGITS, OF_ERRORS = 13, 3  # of values and errors that are written; errors count rounding from 1e-10 on
 DAMAGES = (LookupError, AttributeError, TypeError, ValueError, RecursionError, OverflowError)
-MEND = (
-    "allowed: a file as `baseline make` writes it; take it from version control, or remove it and make it again"
-)
 
 
 @dataclass(frozen=True)
 class KeptRun:
     """What is kept of a run, so that a change can be recognised later.
 
-    numbers: by name.
-    provenance: versions, platform, time, digests of our own sources and of the user's modules.
-    scenario: of the run, as plain data; empty where it is not compared.
-    curves: thinned, at common times, by channel, in SI.
-    horizon: up to when curves are determined [s], see `determined_until`.
+    numbers: by name. provenance: versions, platform, time, digests of sources. scenario: of the run, as plain
+    data; empty where it is not compared. curves: thinned, by channel, in SI. horizon: up to when curves are
+    determined [s], see `determined_until`.
     """
 
     numbers: Mapping[str, Estimate]
@@ -125,52 +120,47 @@ def changes(old: KeptRun, new: KeptRun) -> list[RunChange]:
     of which an error is not known or that one of the runs has no more because of its horizon, and curves beyond
     the horizon of either run.
     """
-    was, now = dict(_leaves(old.scenario)), dict(_leaves(new.scenario))
-    keys = []
+    end = min(old.horizon, new.horizon)
+    columns = [dict(run.curves) for run in (old, new)]
+    if math.isinf(old.horizon) == math.isinf(new.horizon):
+        for own, run in zip(columns, (old, new), strict=True):
+            own |= {name: ComparedColumn.of_number(each, each.unit) for name, each in run.numbers.items()}
+    was, now = columns
+    found = []
+    for name in dict.fromkeys([*was, *now]):
+        what = "channel" if was.get(name, now.get(name)).time.size else "number"
+        if name not in was or name not in now:
+            found.append(RunChange("gone" if name in was else "new", what, name))
+        elif was[name].unit != now[name].unit:
+            values = f"in {was[name].unit} -> in {now[name].unit}"
+            found.append(RunChange("changed", what, name, values))
+        elif not (was[name].time.size and was[name].time[0] > end):
+            channel = compared(name, was[name], now[name], BOTH_ERRORS, until=end)
+            if channel.gaps or channel.verdict == "differs":
+                ratio = math.inf if channel.gaps else channel.over_errors
+                reason = channel.faults[0].removeprefix(f"{name}: ")
+                found.append(RunChange("changed", what, name, reason, ratio))
+    found.sort(key=lambda change: (-change.ratio, change.name))
+    return [*_changed_keys(dict(_leaves(old.scenario)), dict(_leaves(new.scenario))), *found]
+
+
+def _changed_keys(was: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[RunChange]:
     for name in sorted({*was, *now}):
         if name in was and name in now and was[name] == now[name]:
             continue
         kind = "gone" if name not in now else "new" if name not in was else "changed"
-        values = " -> ".join(str(side[name]) for side in (was, now) if name in side)
-        keys.append(RunChange(kind, "key", name, values))
-    rest = list(_changed_columns("channel", old.curves, new.curves, min(old.horizon, new.horizon)))
-    if math.isinf(old.horizon) == math.isinf(new.horizon):
-        mine, its = (
-            {name: ComparedColumn.of_number(number, number.unit) for name, number in run.numbers.items()}
-            for run in (old, new)
+        yield RunChange(
+            kind, "key", name, " -> ".join(short(side[name]) for side in (was, now) if name in side)
         )
-        rest += _changed_columns("number", mine, its, math.inf)
-    return [*keys, *sorted(rest, key=lambda change: (-change.ratio, change.name))]
 
 
-def _changed_columns(
-    what: str, old: Mapping[str, ComparedColumn], new: Mapping[str, ComparedColumn], end: float
-) -> Iterator[RunChange]:
-    """Changes of curves up to a time [s], or of numbers: both errors are what is allowed."""
-    for name in dict.fromkeys([*old, *new]):
-        if name not in old or name not in new:
-            yield RunChange("gone" if name in old else "new", what, name)
-            continue
-        was, now = old[name], new[name]
-        if was.unit != now.unit:
-            yield RunChange("changed", what, name, f"in {was.unit} -> in {now.unit}")
-        elif not (was.time.size and was.time[0] > end):
-            channel = compared(name, was, now, BOTH_ERRORS, until=end)
-            if channel.gaps or channel.verdict == "differs":
-                ratio = math.inf if channel.gaps else channel.over_errors
-                yield RunChange("changed", what, name, channel.faults[0].removeprefix(f"{name}: "), ratio)
-
-
-def _leaves(data: Any, place: str = "") -> Iterator[tuple[str, Any]]:
-    """The items of nested data with their places in it, such as pins.B.friction or gravity[1]."""
-    if isinstance(data, Mapping) and data:
-        for key, item in data.items():
-            yield from _leaves(item, f"{place}.{key}" if place else str(key))
-    elif isinstance(data, (list, tuple)) and data:
-        for n, item in enumerate(data):
-            yield from _leaves(item, f"{place}[{n}]")
-    else:
-        yield place, data
+def _leaves(data: Mapping[str, Any], place: str = "") -> Iterator[tuple[str, Any]]:
+    """The items of nested data by their places in it, such as pins.B.friction."""
+    for key, item in data.items():
+        if isinstance(item, Mapping) and item:
+            yield from _leaves(item, f"{place}{key}.")
+        else:
+            yield f"{place}{key}", item
 
 
 def lines(changes: Sequence[RunChange], most: int) -> list[str]:
@@ -184,7 +174,6 @@ def lines(changes: Sequence[RunChange], most: int) -> list[str]:
 
 def write_baseline(kept: KeptRun, path: Path) -> None:
     """Write a baseline whole or not at all. Raises OSError that names the file if it cannot be written."""
-    time = next((curve.time for curve in kept.curves.values()), np.zeros(0))
     data = {
         "format": FORMAT,
         "provenance": dict(kept.provenance),
@@ -193,7 +182,7 @@ def write_baseline(kept: KeptRun, path: Path) -> None:
             name: f"{float(number.value)!r} {_text([number.error], OF_ERRORS)} {number.unit}"
             for name, number in kept.numbers.items()
         },
-        "time_s": _text(time, DIGITS),
+        "time_s": _text(next((curve.time for curve in kept.curves.values()), []), DIGITS),
         "curves": {
             name: {
                 "unit": curve.unit,
@@ -216,8 +205,7 @@ def _text(values: Iterable[float], digits: int) -> str:
 
 def _numbers(text: str, unknown: float = math.nan) -> Series:
     """The numbers of a text; unknown: what stands for nan, infinite of errors."""
-    numbers = np.array(text.split(), dtype=np.float64)
-    return np.where(np.isnan(numbers), unknown, numbers)
+    return np.nan_to_num(np.array(text.split(), dtype=np.float64), nan=unknown)
 
 
 def read_baseline(path: Path) -> KeptRun:
@@ -248,14 +236,16 @@ def read_baseline(path: Path) -> KeptRun:
         return KeptRun(numbers, data["provenance"], data["scenario"], curves, end)
     except DAMAGES as error:
         why = cleaned(" ".join(str(error).split()))[:200]
-        raise InputError(f"{path}: is no baseline, or damaged ({why}); {MEND}") from None
+        raise InputError(
+            f"{path}: is no baseline, or damaged ({why}); allowed: a file that `baseline make` wrote; take it "
+            "from version control, or remove it and make it again"
+        ) from None
 
 
 # --- the scenarios of a folder ---
 
 
-@dataclass(frozen=True)
-class CheckedScenario:
+class CheckedScenario(NamedTuple):
     """A scenario against its baseline.
 
     name: of the scenario's file. was: its baseline; None: it has none. now: the results of its run; None: there
@@ -265,7 +255,7 @@ class CheckedScenario:
     name: str
     was: KeptRun | None
     now: KeptRun | None = None
-    changes: tuple[RunChange, ...] = ()
+    changes: Sequence[RunChange] = ()
     failed: str = ""
 
     @property
@@ -294,9 +284,7 @@ class BaselineFolder:
         self.scenarios: dict[str, ScenarioFile] = {}
         for file in sorted(path.glob("*.toml")):
             table = load_toml(file)
-            if (
-                "machine" in table or not OTHER_FILES.keys() & table.keys()
-            ):  # or nothing known, which is refused
+            if "machine" in table or table.keys().isdisjoint(OTHER_FILES):  # what is unknown is refused
                 self.scenarios[file.stem] = read_scenario_file(file)
         files = sorted((path / FOLDER).glob(f"*{ENDING}"))
         self.baselines = {file.stem: file for file in files if file.is_file()}
@@ -319,20 +307,19 @@ class BaselineFolder:
             progress((n + share) / len(names))
 
         for n, name in enumerate(names):
-            was, file = kept.get(name), self.scenarios.get(name)
-            if file is None:
+            was = kept.get(name)
+            if name not in self.scenarios:
                 yield CheckedScenario(name, was)
                 continue
-            scene = file.scenario
-            errors = file.errors or scene.accuracy is None
+            file = self.scenarios[name]
+            errors = file.errors or file.scenario.accuracy is None
             try:
-                run = simulate(scene, errors=errors, progress=partial(share_done, n))
+                run = simulate(file.scenario, errors=errors, progress=partial(share_done, n))
             except SimulationError as error:
                 yield CheckedScenario(name, was, failed=" ".join(str(error).split()))
                 continue
-            now = replace(kept_run(run), scenario=scene.plain)
-            yield CheckedScenario(name, was, now, tuple(changes(was, now)) if was is not None else ())
-        progress(1.0)
+            now = replace(kept_run(run), scenario=file.scenario.plain)
+            yield CheckedScenario(name, was, now, changes(was, now) if was is not None else ())
 
     def write(self, checked: CheckedScenario) -> Path:
         """Write the results of a scenario; of a scenario that is gone remove them.

@@ -36,28 +36,26 @@ CAPTION = (
 
 
 def write_figure(compared: FilesCompared, path: Path) -> None:
-    """Write the figure, as its ending says, else as PNG. Raises InputError as `compare_figure` does."""
+    """Write the figure, as its ending says, else as PNG. Raises InputError if channels are more than `MOST`."""
+    names = list(dict.fromkeys(channel.name for channel in compared.channels))
+    if len(names) > MOST:
+        raise InputError(
+            f"{len(names)} channels: allowed in a figure: {MOST}; name fewer, such as {names[0]!r}"
+        )
     with style.look(), whole_file(path) as temporary:
         kind = {".pdf": "pdf", ".svg": "svg"}.get(path.suffix.lower(), "png")
         compare_figure(compared).savefig(temporary, format=kind)
 
 
-def compare_figure(compared: FilesCompared, most: int | None = None) -> Figure:
-    """The figure of a comparison: of each channel the curves, and below them the differences.
+def compare_figure(compared: FilesCompared, most: int = MOST) -> Figure:
+    """The figure of a comparison: of each of the first channels the curves, and below them the differences.
 
-    most: number of channels that are drawn, of more the first; None: all.
-
-    Raises InputError if files are too many, or of all channels more than `MOST`.
+    Raises InputError if files are too many.
     """
     pairs = compared.pairs
-    names = list(dict.fromkeys(name for pair in pairs for name in pair.channels))
-    if most is None and len(names) > MOST:
-        raise InputError(
-            f"{len(names)} channels: allowed in a figure: {MOST}; name fewer, such as {names[0]!r}"
-        )
     if len(pairs) > len(OTHERS):
         raise InputError(f"{len(pairs) + 1} files: allowed in a figure: {len(OTHERS) + 1}")
-    names = names[:most]
+    names = list(dict.fromkeys(channel.name for channel in compared.channels))[:most]
     panels = [panel for name in names for panel in _panels(compared, name)]
     horizon = min(pair.horizon for pair in pairs)
     with style.look():
@@ -86,15 +84,12 @@ def _panels(compared: FilesCompared, name: str) -> list[tuple[str, list[Curve]]]
     channels = [pair.channels[name] for pair, _ in there]
     unit, times = channels[0].unit, np.concatenate([channel.common.time for channel in channels])
     curves, differences = [], []
-    for file, (colour, dashes) in [
-        (compared.reference, REFERENCE),
-        *((pair.other, look) for pair, look in there),
-    ]:
+    for file, look in [(compared.reference, REFERENCE), *((pair.other, look) for pair, look in there)]:
         column = file.columns[name].in_unit(unit, name)
         shown = (column.time >= times.min()) & (column.time <= times.max())
         few = file.run is None and np.count_nonzero(shown) <= FEW
         line = column.time[shown], column.values[shown]
-        curves.append(Curve(file.name, *line, None, colour, "" if few else dashes))
+        curves.append(Curve(file.name, *line, None, look[0], "" if few else look[1]))
     for channel, (_, look) in zip(channels, there, strict=True):
         before = slice(channel.before)
         line = channel.common.time[before], channel.common.difference[before]
@@ -104,20 +99,20 @@ def _panels(compared: FilesCompared, name: str) -> list[tuple[str, list[Curve]]]
 
 def _mark(axes: Axes, pairs: list[ComparedPair], name: str) -> None:
     """Mark what is allowed in a panel of differences; its title states the largest one and the verdict."""
-    channels, titles = [pair.channels[name] for pair in pairs], []
-    for pair, channel in zip(pairs, channels, strict=True):
-        largest = "nothing lies before the horizon"
+    titles, sizes, first = [], [0.0], pairs[0].channels[name]
+    for pair in pairs:
+        channel, largest = pair.channels[name], "nothing lies before the horizon"
         if math.isfinite(channel.measures.largest):
+            sizes.append(channel.largest.value)
             at = f"{channel.measures.largest_time:.4g} s"
             largest = f"largest {amount(channel.measures.largest, channel.unit)} at {at}"
         verdict = f", {channel.verdict} ({channel.tolerance.text})" if channel.tolerance is not None else ""
         titles.append(f"{pair.other.name}: {largest}{verdict}")
     axes.set_title("; ".join(titles), fontsize=7)
-    sizes = [channel.largest.value for channel in channels if math.isfinite(channel.largest.value)]
-    shown = readable(channels[0].unit, max(sizes, default=0.0))
+    shown = readable(first.unit, max(sizes))
     label_values(axes, "difference", shown.name)
-    if math.isfinite(channels[0].allowed):
-        bound = shown.scale * channels[0].allowed
+    if math.isfinite(first.allowed):
+        bound = shown.scale * first.allowed
         axes.axhspan(-bound, bound, color=ALLOWED, alpha=0.10, lw=0.0, zorder=0)
         for end in (-bound, bound):
             axes.axhline(end, color=ALLOWED, lw=0.8, ls="--", label="allowed")
@@ -129,13 +124,13 @@ def write_page(compared: FilesCompared, path: Path) -> None:
     Its live figures have all channels, and the printed ones of more than `MOST` channels the first.
     """
     drawn = [FilesCompared(compared.reference, (pair,)) for pair in compared.pairs]
-    figures = [compare_figure(each, len(each.pairs[0].channels)) for each in drawn]
+    figures = [compare_figure(each, len(each.channels)) for each in drawn]
     live = html({f"curves{n}": of_drawing(each, range(len(each.axes))) for n, each in enumerate(figures)})
     files = []
     with tempfile.TemporaryDirectory() as folder, style.look():
         for n, pair in enumerate(compared.pairs):
             printed = Path(folder) / f"{n}.png"
-            compare_figure(drawn[n], MOST).savefig(printed)
+            compare_figure(drawn[n]).savefig(printed)
             files.append({
                 "name": pair.other.name,
                 "anchor": f"file{n}",

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
-from functools import cached_property
+from dataclasses import dataclass, replace
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -127,9 +126,11 @@ class ComparedChannel:
     name, unit: of it. common: both curves at common times; a number is a curve at a single time, 0.
     errors: numerical errors of the difference at these times, with that of interpolation, (n,); NaN: not known.
     before: number of the times that lie before the horizon. measures: of these.
-    means: over the whole window, of the reference, of the other curve and of the difference.
     statistics: from the horizon on, by their names; empty if there is none, or if nothing lies behind it.
+    over_errors: largest multiple of the numerical error by which the curves differ; NaN if none is known.
+    gaps: number of times at which the other curve is not known and the reference is.
     tolerance, allowed: the tolerance, and its amount; None and NaN without one.
+    rows: those of the table: the mean, the largest difference, shares, statistics.
     """
 
     name: str
@@ -138,138 +139,22 @@ class ComparedChannel:
     errors: Values
     before: int
     measures: CurveMeasures
-    means: tuple[Estimate, Estimate, Estimate]
     statistics: Mapping[str, StatisticDifference]
+    over_errors: float
+    gaps: int
     tolerance: Tolerance | None
     allowed: float
+    rows: tuple[ComparedRow, ...] = ()
 
     @property
     def mean(self) -> Estimate:
         """The mean of the difference."""
-        return self.means[2]
+        return Estimate(self.rows[0].difference, self.rows[0].error, self.unit)
 
     @property
     def largest(self) -> Estimate:
         """Magnitude of the largest difference before the horizon with its error; NaN if nothing lies before."""
-        row = next(row for row in self.rows if row.measure == LARGEST)
-        return Estimate(abs(row.difference), row.error, self.unit)
-
-    @cached_property
-    def _multiples(self) -> Values:
-        """The difference over its error at each time before the horizon, (n,); -1 where no error is known."""
-        apart, errors = np.abs(self.common.difference[: self.before]), self.errors[: self.before]
-        ratios = np.divide(apart, errors, out=np.where(apart > 0.0, math.inf, 0.0), where=errors > 0.0)
-        return np.where(np.isfinite(errors) & np.isfinite(apart), ratios, -1.0)
-
-    @property
-    def over_errors(self) -> float:
-        """The largest multiple of the numerical error by which the curves differ; NaN if no error is known."""
-        largest = float(self._multiples.max(initial=-1.0))
-        return largest if largest >= 0.0 else math.nan
-
-    @property
-    def gaps(self) -> int:
-        """Number of times at which the other curve is not known and the reference is."""
-        return int(np.count_nonzero(np.isfinite(self.common.reference) & ~np.isfinite(self.common.other)))
-
-    @cached_property
-    def rows(self) -> tuple[ComparedRow, ...]:
-        """The rows of the channel: a tolerance bounds the largest difference, after the horizon statistics.
-
-        A percentage is not judged, nor is the mean. Without a tolerance the numerical errors decide.
-        """
-        (reference, other, mean), name = self.means, self.name
-        sides = reference.value, other.value, mean.value, mean.error
-        rows = [ComparedRow(name, self.unit, "mean", math.nan, *sides), self._largest_row()]
-        for measure, share in (
-            ("RMS/range", self.measures.rms_of_range),
-            ("C", self.measures.combined_error),
-        ):
-            rows.append(ComparedRow(name, PERCENT, measure, difference=100.0 * share))
-        for statistic, each in self.statistics.items():
-            measure = f"{statistic} after the horizon"
-            row = ComparedRow(name, self.unit, measure, math.nan, *each, self.allowed)
-            if self.tolerance is not None:
-                row = self._judged(row, bool(each.equal))
-            elif each.equal is not None:
-                row = row._replace(verdict="agrees" if each.equal else "differs")
-            rows.append(row)
-        return tuple(rows)
-
-    def _largest_row(self) -> ComparedRow:
-        """The largest difference before the horizon, with its verdict.
-
-        Where numerical errors decide, the reason of the verdict is that of the record with the largest multiple
-        of its error. Curves that are the same to the bit have the same errors, whatever these are.
-        """
-        common, row = self.common, ComparedRow(self.name, self.unit, LARGEST, tolerance=self.allowed)
-        unknown = math.isnan(self.measures.largest)
-        if self.gaps:
-            reason = f"not decided: no value at {self.gaps} times at which the reference has a value"
-            row = row._replace(verdict="not decided", reason=reason)
-        elif unknown and not self.statistics:
-            row = row._replace(verdict="not decided", reason="not decided: there are no two common values")
-        if unknown:
-            return row
-
-        def at(place: int) -> ComparedRow:
-            time = float(common.time[place]) if common.time.size > 1 else math.nan
-            numbers = common.reference, common.other, common.difference, self.errors
-            mine, its, apart, error = (float(each[place]) for each in numbers)
-            return row._replace(time=time, reference=mine, other=its, difference=apart, error=error)
-
-        place = int(np.searchsorted(common.time, self.measures.largest_time))
-        shown = at(place)
-        if shown.verdict:
-            return shown
-        if np.array_equal(common.reference, common.other, equal_nan=True):
-            return shown._replace(verdict="agrees", reason="is the same")
-        if (self.tolerance is None or self.tolerance.is_errors) and self.over_errors > 1.0:
-            place = int(self._multiples.argmax())
-        judged = self._judged(at(place), self.over_errors <= 1.0, float(common.interpolation_error[place]))
-        return shown._replace(verdict=judged.verdict, reason=judged.reason)
-
-    def _judged(self, row: ComparedRow, agrees: bool, interpolation: float = math.nan) -> ComparedRow:
-        """A row with its verdict and the reason, by the tolerance, or by the numerical errors.
-
-        Not decided is a difference that is not known, or whose error is not known, or is larger than what is
-        allowed and could turn the answer.
-
-        agrees: whether the numerical errors explain the difference. interpolation: the error where that of the
-        row is not known.
-        """
-        rule, apart = self.tolerance, abs(row.difference)
-        error = interpolation if math.isnan(row.error) else row.error
-        known = f"the numerical error of {amount(error, row.unit, 2)}"
-        verdict: Verdict = "differs"
-        if rule is None or rule.is_errors:
-            because = f"more than {known}"
-            if agrees:
-                verdict = "agrees"
-            elif math.isnan(self.over_errors):
-                verdict, because = "not decided" if rule else "differs", "and no numerical error is known"
-            elif rule is None and self.over_errors < CERTAIN:
-                verdict = "not decided"
-                because += f", but less than {CERTAIN:g} times, so not certainly"
-        else:
-            bound = f"the tolerance of {amount(row.tolerance, row.unit, 4)} ({rule.text})"
-            because = f"more than {bound}"
-            unsure = error > row.tolerance and apart - error <= row.tolerance
-            if math.isnan(apart) or not math.isfinite(error) or unsure:
-                known = known if math.isfinite(error) else "an unknown numerical error"
-                verdict, because = "not decided", f"not decided by {bound} with {known}"
-            elif apart <= row.tolerance * (1.0 + ROUNDING):
-                verdict, because = "agrees" if agrees else "differs within tolerance", f"not {because}"
-        because = f"within {known}" if verdict == "agrees" else because
-        at = f" at {row.time:.6g} s" if math.isfinite(row.time) else ""
-        what = "" if row.measure == LARGEST else f"the {row.measure} is "
-        reason = (
-            f"{what}{row.other:.9g} {row.unit}{at}, where the reference is {row.reference:.9g}, differs by "
-            f"{amount(apart, row.unit, 4)}, {because}"
-        )
-        if rule is not None and rule.unit == PERCENT and not row.tolerance:
-            reason += "; the reference is constant: give an amount with its unit"
-        return row._replace(verdict=verdict, reason=reason)
+        return Estimate(abs(self.rows[1].difference), self.rows[1].error, self.unit)
 
     @property
     def verdict(self) -> Verdict:
@@ -295,9 +180,7 @@ def compared(
     horizon: float = math.inf,
     among: int = 1,
 ) -> ComparedChannel:
-    """Compare a column with its reference.
-
-    Angles are compared modulo the full turns by which both begin apart.
+    """Compare a column with its reference; angles modulo the full turns by which both begin apart.
 
     Arguments:
         name: of the channel.
@@ -328,21 +211,132 @@ def compared(
     both = np.array([column.errors_at(common.time) for column in (reference, other)])
     errors = np.where(np.isnan(both).all(axis=0), math.nan, np.nan_to_num(both, posinf=math.inf).sum(axis=0))
     errors = errors + common.interpolation_error
-    whole = curve_measures(common.time, common.reference, common.other)
-    error = curve_measures(common.time, np.zeros(errors.size), errors).mean_other
-    error = math.inf if np.isinf(errors).any() else error
-    means = (whole.mean_reference, whole.mean_other, whole.mean_difference)
-    mine, its, difference = (Estimate(mean, error, unit) for mean in means)
-    before = common.time < horizon
-    return ComparedChannel(
+    early = common.time < horizon
+    multiples = _multiples(common.difference, errors)[early]
+    channel = ComparedChannel(
         name=name,
         unit=unit,
         common=common,
         errors=errors,
-        before=int(before.sum()),
-        measures=curve_measures(common.time[before], common.reference[before], common.other[before]),
-        means=(mine, its, difference),
-        statistics=compared_statistics(common.reference[~before], common.other[~before], among),
+        before=int(early.sum()),
+        measures=curve_measures(common.time[early], common.reference[early], common.other[early]),
+        statistics=compared_statistics(common.reference[~early], common.other[~early], among),
+        over_errors=float(multiples.max()) if multiples.max(initial=-1.0) >= 0.0 else math.nan,
+        gaps=int(np.count_nonzero(np.isfinite(common.reference) & ~np.isfinite(common.other))),
         tolerance=tolerance,
         allowed=math.nan if tolerance is None else tolerance.in_si(name, unit, extent),
     )
+    return replace(channel, rows=_rows(channel))
+
+
+def _multiples(difference: Values, errors: Values) -> Values:
+    """Differences over their errors, (n,); -1 where no error is known."""
+    apart = np.abs(difference)
+    ratios = np.divide(apart, errors, out=np.where(apart > 0.0, math.inf, 0.0), where=errors > 0.0)
+    return np.where(np.isfinite(errors) & np.isfinite(apart), ratios, -1.0)
+
+
+# --- rows and verdicts ---
+
+
+def _rows(channel: ComparedChannel) -> tuple[ComparedRow, ...]:
+    """The rows of a channel: a tolerance bounds the largest difference, after the horizon statistics.
+
+    A percentage is not judged, nor is the mean. Without a tolerance the numerical errors decide.
+    """
+    name, unit, common = channel.name, channel.unit, channel.common
+    whole = curve_measures(common.time, common.reference, common.other)
+    error = curve_measures(common.time, np.zeros(channel.errors.size), channel.errors).mean_other
+    error = math.inf if np.isinf(channel.errors).any() else error
+    means = whole.mean_reference, whole.mean_other, whole.mean_difference
+    measures = channel.measures
+    rows = [
+        ComparedRow(name, unit, "mean", math.nan, *means, error),
+        _largest(channel),
+        ComparedRow(name, PERCENT, "RMS/range", difference=100.0 * measures.rms_of_range),
+        ComparedRow(name, PERCENT, "C", difference=100.0 * measures.combined_error),
+    ]
+    for statistic, each in channel.statistics.items():
+        row = ComparedRow(name, unit, f"{statistic} after the horizon", math.nan, *each, channel.allowed)
+        if channel.tolerance is not None:
+            row = _judged(channel, row, bool(each.equal), row.error)
+        elif each.equal is not None:
+            row = row._replace(verdict="agrees" if each.equal else "differs")
+        rows.append(row)
+    return tuple(rows)
+
+
+def _largest(channel: ComparedChannel) -> ComparedRow:
+    """The row of the largest difference before the horizon, with its verdict.
+
+    Where numerical errors decide, the reason of the verdict is that of the record with the largest multiple
+    of its error. Curves that are the same to the bit have the same errors, whatever these are.
+    """
+    common, rule = channel.common, channel.tolerance
+    shown = ComparedRow(channel.name, channel.unit, LARGEST, tolerance=channel.allowed)
+    if channel.gaps:
+        reason = f"not decided: no value at {channel.gaps} times at which the reference has a value"
+        shown = shown._replace(verdict="not decided", reason=reason)
+    if math.isnan(channel.measures.largest):
+        if channel.gaps or channel.statistics:
+            return shown
+        return shown._replace(verdict="not decided", reason="not decided: there are no two common values")
+
+    def at(place: int) -> ComparedRow:
+        time = float(common.time[place]) if common.time.size > 1 else math.nan
+        numbers = common.reference, common.other, common.difference, channel.errors
+        mine, its, apart, error = (float(each[place]) for each in numbers)
+        return shown._replace(time=time, reference=mine, other=its, difference=apart, error=error)
+
+    place = int(np.searchsorted(common.time, channel.measures.largest_time))
+    shown = at(place)
+    if channel.gaps:
+        return shown
+    if np.array_equal(common.reference, common.other, equal_nan=True):
+        return shown._replace(verdict="agrees", reason="is the same")
+    if (rule is None or rule.is_errors) and channel.over_errors > 1.0:
+        place = int(_multiples(common.difference, channel.errors)[: channel.before].argmax())
+    row = at(place)
+    error = float(common.interpolation_error[place]) if math.isnan(row.error) else row.error
+    judged = _judged(channel, row, channel.over_errors <= 1.0, error)
+    return shown._replace(verdict=judged.verdict, reason=judged.reason)
+
+
+def _judged(channel: ComparedChannel, row: ComparedRow, explained: bool, error: float) -> ComparedRow:
+    """A row with its verdict and the reason, by the tolerance, or by the numerical errors.
+
+    Not decided is a difference that is not known, or whose error is not known, or is larger than what is
+    allowed and could turn the answer.
+
+    explained: whether the numerical errors explain the difference. error: of the difference, known or assumed.
+    """
+    rule, apart, allowed = channel.tolerance, abs(row.difference), row.tolerance
+    known = f"the numerical error of {amount(error, row.unit, 2)}"
+    verdict: Verdict = "differs"
+    if rule is None or rule.is_errors:
+        because = f"more than {known}"
+        if explained:
+            verdict = "agrees"
+        elif math.isnan(channel.over_errors):
+            verdict, because = "not decided" if rule else "differs", "and no numerical error is known"
+        elif rule is None and channel.over_errors < CERTAIN:
+            verdict, because = "not decided", f"{because}, but by less than {CERTAIN:g} times: not certain"
+    else:
+        bound = f"the tolerance of {amount(allowed, row.unit, 4)} ({rule.text})"
+        because = f"more than {bound}"
+        unsure = error > allowed and apart - error <= allowed
+        if math.isnan(apart) or not math.isfinite(error) or unsure:
+            known = known if math.isfinite(error) else "an unknown numerical error"
+            verdict, because = "not decided", f"not decided by {bound} with {known}"
+        elif apart <= allowed * (1.0 + ROUNDING):
+            verdict, because = "agrees" if explained else "differs within tolerance", f"not {because}"
+    because = f"within {known}" if verdict == "agrees" else because
+    at = f" at {row.time:.6g} s" if math.isfinite(row.time) else ""
+    what = "" if row.measure == LARGEST else f"the {row.measure} is "
+    reason = (
+        f"{what}{row.other:.9g} {row.unit}{at}, where the reference is {row.reference:.9g}, differs by "
+        f"{amount(apart, row.unit, 4)}, {because}"
+    )
+    if rule is not None and rule.unit == PERCENT and not allowed:
+        reason += "; the reference is constant: give an amount with its unit"
+    return row._replace(verdict=verdict, reason=reason)

@@ -26,7 +26,6 @@ from support_exudyn.postprocessing.comparing.mapping import MappedFile
 from support_exudyn.postprocessing.figures.channels import error_over_time
 from support_exudyn.scenario.timescales import timescales
 from support_exudyn.simulation.estimate import Estimate
-from support_exudyn.simulation.recorded_run import RecordedRun
 from support_exudyn.simulation.reported_numbers import ROUNDING, left_by_newton
 from support_exudyn.simulation.result import Result
 from user_forces.values.names import nearest
@@ -40,7 +39,6 @@ HEAD = 64  # bytes by which a run is recognised
 AROUND = 5  # records to either side of which the largest error is taken
 SINGLE = 3.0  # times what is estimated of numbers, which average
 JUMPING = ".impact_velocity"  # end of the names of channels that are steps in time
-ARM = 1.0  # [m], of a body, by which places become angles
 # Share of the largest value of a unit, of the whole run, that a safe error is at least: what is nothing in
 # truth, as the force of a pin that carries nothing or what is missing of an energy, is rounding of others.
 ROUNDED = 1e-12
@@ -84,8 +82,7 @@ class ComparedFile:
         run, ends = self.run, (channel, after - self.shift, until - self.shift)
         if run is None or channel in self.mapped or self.columns[channel].unit != unit:
             return None
-        window = run.window(*ends)
-        error = math.nan
+        window, error = run.window(*ends), math.nan
         if self.has_errors:
             usual = self._numbers(*ends[1:]).get(f"{channel}.mean")
             error = usual.error if usual else run.estimate(lambda run: run.window(*ends).mean).error
@@ -103,57 +100,41 @@ class ComparedFile:
         return replace(self, columns=columns, shift=self.shift + seconds)
 
 
-def run_or_series(
-    path: Path, mapped: MappedFile | None = None, names: Sequence[str] = (), progress: Progress = silent
-) -> Result | SeriesFile:
-    """The contents of a file: a run of this program with its errors, or the series of any other.
-
-    Raises InputError if it cannot be read; OSError if it is not there.
-    """
-    is_own = path.suffix.lower() == ENDING
-    if path.is_file():
-        with path.open("rb") as file:
-            is_own = is_run(file.read(HEAD))
-    if is_own:
-        return Result.load(path)
-    mapped = mapped or MappedFile()
-    settings = {"analysis": mapped.analysis, "sheet": mapped.sheet}
-    return read_series(path, units=mapped.units, rate=mapped.rate, names=names, progress=progress, **settings)
-
-
 def compared_file(
-    source: Path | Result,
-    name: str,
-    mapped: MappedFile,
+    source: Path | Result | SeriesFile,
+    name: str = "",
+    mapped: MappedFile | None = None,
     channels: Sequence[str] = (),
     progress: Progress = silent,
 ) -> ComparedFile:
     """A run, or a file with the channels of its mapping, which take the place of the columns of others' files.
 
     channels: patterns of those that are wanted, all if there are none: others take no memory.
+
+    Raises InputError if it cannot be read or lacks a mapped column; OSError if it is not there.
     """
-    if isinstance(source, Result):
-        read: Result | SeriesFile = source
-        path = Path(name)
-    else:
-        path, needed = source, [glob.escape(column.column) for column in mapped.columns.values()]
+    mapped = mapped or MappedFile()
+    sources = {channel: each.column for channel, each in mapped.columns.items()}
+    read = source
+    if isinstance(read, Path):
+        wanted = [*channels, *map(glob.escape, sources.values())] if channels else []
         try:
-            read = run_or_series(path, mapped, [*channels, *needed] if channels else [], progress)
+            read = _read(read, mapped, wanted, progress)
         except InputError:  # read all, so that an error can name the columns
-            read = run_or_series(path, mapped, (), progress)
+            read = _read(read, mapped, [], progress)
+    path = source if isinstance(source, Path) else Path(name)
     if isinstance(read, Result):
         file = ComparedFile(name, path, "run of this program", recorded_columns(read), read)
     else:
         series = {column: ComparedColumn.of_series(each) for column, each in read.series.items()}
         file = ComparedFile(name, path, read.kind, series, notes=read.notes)
-    sources = {channel: each.column for channel, each in mapped.columns.items()}
-    lacking = [
-        f"{path}: has no column {column!r} for {channel}; {nearest(column, list(file.columns))}"
-        for channel, column in sources.items()
-        if column not in file.columns
-    ]
-    if lacking:
-        raise InputError("\n".join(lacking))
+    if lacking := [(channel, column) for channel, column in sources.items() if column not in file.columns]:
+        raise InputError(
+            "\n".join(
+                f"{path}: has no column {column!r} for {channel}; {nearest(column, list(file.columns))}"
+                for channel, column in lacking
+            )
+        )
     columns = {}
     for channel, each in mapped.columns.items():
         column = file.columns[each.column]
@@ -164,21 +145,23 @@ def compared_file(
     return replace(file, columns=columns, mapped=sources).shifted(mapped.shift)
 
 
+def _read(path: Path, mapped: MappedFile, names: Sequence[str], progress: Progress) -> Result | SeriesFile:
+    """The contents of a file: a run of this program with its errors, or the series of any other."""
+    is_own = path.suffix.lower() == ENDING
+    if path.is_file():
+        with path.open("rb") as file:
+            is_own = is_run(file.read(HEAD))
+    if is_own:
+        return Result.load(path)
+    settings = {"analysis": mapped.analysis, "sheet": mapped.sheet}
+    return read_series(path, units=mapped.units, rate=mapped.rate, names=names, progress=progress, **settings)
+
+
 # --- errors of a run's channels ---
 
 
 def recorded_columns(result: Result, names: Iterable[str] | None = None) -> dict[str, ComparedColumn]:
-    """Channels of a run with their errors; None: all but time."""
-    if names is None:
-        names = [name for name in result.channels if name != "time"]
-    return {
-        name: ComparedColumn(result.unit(name), result.time, result[name], error)
-        for name, error in curve_errors(result, names).items()
-    }
-
-
-def curve_errors(result: Result, names: Iterable[str]) -> dict[str, Values]:
-    """Numerical errors of channels at each of their records, (n,), in their units, by name.
+    """Channels of a run with their numerical errors at each record; None: all but time.
 
     Record by record as `error_over_time` estimates them from the coarser runs; then of each the largest one of
     the `AROUND` records to either side, and no less than a step may be wrong by; all of it `SINGLE` times. An
@@ -187,29 +170,30 @@ def curve_errors(result: Result, names: Iterable[str]) -> dict[str, Values]:
     horizon on errors are infinite; NaN if the run has none. Impact velocities jump at impacts and
     separations, whose times have errors: the error at both records about a jump is at least the jump.
     """
-    errors = {name: np.full(result.time.size, math.nan) for name in names}
+    names = [name for name in result.channels if name != "time"] if names is None else list(names)
+    unknown = np.full(result.time.size, math.nan)
+    columns = {name: ComparedColumn(result.unit(name), result.time, result[name], unknown) for name in names}
     if result.coarser is None:
-        return errors
+        return columns
     largest: dict[str, float] = {}
     for channel in result.channels.values():
         size = float(np.abs(channel.values[np.isfinite(channel.values)]).max(initial=0.0))
         largest[channel.unit] = max(largest.get(channel.unit, 0.0), size)
     least, beyond = _least_errors(result, largest), result.time >= result.horizon
-    for name in errors:
-        single = error_over_time(result, name)
-        if single is not None:
-            unit = result.unit(name)
-            near = ndimage.maximum_filter1d(single, 2 * AROUND + 1) + least.get(unit, 0.0)
-            growing = np.maximum.accumulate(np.where(beyond, math.inf, SINGLE * near))
-            errors[name] = growing + ROUNDED * largest[unit]
-            if name.endswith(JUMPING):
-                jumps = np.abs(np.diff(result[name]))
-                errors[name][:-1] = np.maximum(errors[name][:-1], jumps)
-                errors[name][1:] = np.maximum(errors[name][1:], jumps)
-    return errors
+    for name, column in columns.items():
+        single, unit = error_over_time(result, name), result.unit(name)
+        if single is None:
+            continue
+        near = ndimage.maximum_filter1d(single, 2 * AROUND + 1) + least.get(unit, 0.0)
+        errors = np.maximum.accumulate(np.where(beyond, math.inf, SINGLE * near)) + ROUNDED * largest[unit]
+        if name.endswith(JUMPING):
+            jumps = np.pad(np.abs(np.diff(column.values)), 1)
+            errors = np.maximum.reduce([errors, jumps[1:], jumps[:-1]])
+        columns[name] = column._replace(errors=errors)
+    return columns
 
 
-def _least_errors(result: RecordedRun, largest: Mapping[str, float]) -> Mapping[str, float]:
+def _least_errors(result: Result, largest: Mapping[str, float]) -> Mapping[str, float]:
     """The least error that coarser runs can show, by unit: a share of the sizes of a run's motion and forces.
 
     The share is the tolerance that steps are chosen by, else what Newton's method leaves, or rounding. A step
@@ -229,8 +213,8 @@ def _least_errors(result: RecordedRun, largest: Mapping[str, float]) -> Mapping[
     share = scenario.solver.tolerance if scenario.chooses_steps else max(left_by_newton(scenario), ROUNDING)
     length = min((place.play for place in scenario.contact_places.values()), default=0.0)
     moving = {
-        unit + per: length / arm / shortest**power
-        for unit, arm in (("m", 1.0), ("rad", ARM))
+        f"{unit}{per}": length / shortest**power
+        for unit in ("m", "rad")
         for per, power in (("", 0), ("/s", 1), ("/s^2", 2))
     }
     moving["J"] = largest.get("N", 0.0) * length

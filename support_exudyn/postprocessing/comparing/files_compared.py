@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cache, partial
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -29,14 +29,13 @@ from support_exudyn.postprocessing.comparing.mapping import (
     read_tolerances,
     tolerances_of,
 )
-from support_exudyn.postprocessing.comparing.measures import STATISTICS, TimeShift, time_shift
+from support_exudyn.postprocessing.comparing.measures import TimeShift, time_shift
 from support_exudyn.postprocessing.figures.selection import is_called, matching
 from support_exudyn.postprocessing.figures.units import QUANTITIES
-from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
 
-FEWEST = 2  # files
+STATISTICS = 2  # of each channel after the horizon
 SHOWN = 6  # names that are listed of many
 Comparable = Result | str | Path
 
@@ -135,14 +134,23 @@ def compare_files(
     Raises InputError if something cannot be read, mapped or compared: what, where, and what is allowed; OSError
     if a file is not there.
     """
-    files = [each if isinstance(each, Result) else Path(each) for each in (reference, *others)]
-    if len(files) < FEWEST:
-        raise InputError(f"{len(files)} file: allowed: {FEWEST} or more, the first is the reference")
+    sources = [each if isinstance(each, Result) else Path(each) for each in (reference, *others)]
+    if not others:
+        raise InputError("1 file: allowed: 2 or more, the first is the reference")
     if isinstance(mapping, (str, Path)):
-        mapping = read_compare_file(Path(mapping), [path for path in files if isinstance(path, Path)])
+        mapping = read_compare_file(Path(mapping), [path for path in sources if isinstance(path, Path)])
     mapping = mapping or CompareFile()
     mapping = replace(mapping, rate=mapping.rate or rate)
-    first, *rest = _read(files, mapping, channels, progress)
+    files: list[ComparedFile] = []
+    for n, source in enumerate(sources):
+        name, mapped = f"run {n + 1}", MappedFile()
+        if isinstance(source, Path):
+            alike = {each for each in sources if isinstance(each, Path) and each.name == source.name}
+            name, mapped = source.name if len(alike) == 1 else str(source), mapping.of(source)
+            name = f"{name} ({n + 1})" if name in [file.name for file in files] else name
+        files.append(compared_file(source, name, mapped, channels))
+        progress((n + 1) / len(sources))
+    first, *rest = files
     asked = read_tolerances(tolerance) if isinstance(tolerance, str) else list(tolerance)
     tolerances = [*asked, *tolerances_of(mapping)]
     named = [*channels, *(each.pattern for each in tolerances)]
@@ -160,58 +168,40 @@ def compare_files(
     return FilesCompared(first, tuple(pairs))
 
 
-def _read(
-    files: Sequence[Path | Result], mapping: CompareFile, channels: Sequence[str], progress: Progress
-) -> list[ComparedFile]:
-    """Files, called by their names; with folder or place if another file has the same name."""
-    read: list[ComparedFile] = []
-
-    def share_done(n: int, share: float) -> None:
-        progress((n + share) / len(files))
-
-    for n, source in enumerate(files):
-        name, mapped = f"run {n + 1}", MappedFile()
-        if isinstance(source, Path):
-            alike = {each for each in files if isinstance(each, Path) and each.name == source.name}
-            name, mapped = source.name if len(alike) == 1 else str(source), mapping.of(source)
-            name = f"{name} ({n + 1})" if name in [file.name for file in read] else name
-        read.append(compared_file(source, name, mapped, channels, partial(share_done, n)))
-    progress(1.0)
-    return read
-
-
 def _channel(
     pair: ComparedPair, name: str, units: Mapping[str, str], tolerances: Sequence[Tolerance]
 ) -> ComparedChannel:
     """Compare a channel; the means of two runs are taken from all of their steps."""
-    reference, other, unit = pair.reference, pair.other, units[name]
+    files, unit = (pair.reference, pair.other), units[name]
     try:
         channel = compared(
             name,
-            reference.columns[name],
-            other.columns[name],
+            *(file.columns[name] for file in files),
             next((each for each in tolerances if is_called(name, each.pattern)), None),
             unit=unit,
             after=pair.after,
             until=pair.until,
             horizon=pair.horizon,
-            among=len(units) * len(STATISTICS),
+            among=len(units) * STATISTICS,
         )
     except InputError as error:
-        raise InputError(f"{name} of {reference.name} and {other.name}: {error}") from None
+        raise InputError(f"{name} of {files[0].name} and {files[1].name}: {error}") from None
     ends = float(channel.common.time[0]), float(channel.common.time[-1])
-    first, second = (file.mean(name, unit, *ends) for file in (reference, other))
+    first, second = (file.mean(name, unit, *ends) for file in files)
     if first is None or second is None:
         return channel
     known = [mean.error for mean in (first, second) if not math.isnan(mean.error)]
-    apart = Estimate(second.value - first.value, sum(known) if known else math.nan, unit)
-    return replace(channel, means=(first, second, apart))
+    row = channel.rows[0]._replace(
+        reference=first.value,
+        other=second.value,
+        difference=second.value - first.value,
+        error=sum(known) if known else math.nan,
+    )
+    return replace(channel, rows=(row, *channel.rows[1:]))
 
 
 def _surest_shift(reference: ComparedFile, other: ComparedFile, units: Mapping[str, str]) -> TimeShift:
     """The shift of the channel that is sure of it and has the largest correlation.
-
-    units: of the channels that are tried, in SI.
 
     Raises InputError if no channel is sure: the curves are not alike, or alike at several shifts.
     """
@@ -223,8 +213,7 @@ def _surest_shift(reference: ComparedFile, other: ComparedFile, units: Mapping[s
         except InputError as error:
             reasons.append(f"{name}: {error}")
             continue
-        if shift.is_sure:
-            sure.append(shift)
+        sure += [shift] if shift.is_sure else []
         reasons.append(f"{name}: correlation {shift.correlation:.2f}, at another shift {shift.next_best:.2f}")
     if sure:
         return max(sure, key=lambda shift: shift.correlation)
@@ -247,7 +236,7 @@ def _common(
 
     Raises InputError if nothing is left, or if a channel that is named, or mapped, cannot be compared.
     """
-    mine, its = reference.columns, other.columns
+    mine, its, mapped = reference.columns, other.columns, (*reference.mapped, *other.mapped)
     if patterns:
         asked = matching(mine, patterns)
     elif reference.run is None:
@@ -256,8 +245,7 @@ def _common(
         asked = [name for name in mine if name in its]
     else:
         usual = [name for name in summary.telling(reference.run) if not name.startswith("energy.")]
-        mapped = [name for name in (*reference.mapped, *other.mapped) if name in mine]
-        asked = list(dict.fromkeys([*mapped, *usual]))
+        asked = [name for name in dict.fromkeys([*mapped, *usual]) if name in mine]
     lacking = [name for name in named if name in mine and name not in its]
     if lacking or its.keys().isdisjoint(asked):
         shown = "; ".join(f"{file.name} has {first_names(list(file.columns))}" for file in (reference, other))
@@ -268,17 +256,19 @@ def _common(
             f'column is which: [files."{other.path.name}".columns] "{first}" = "{second}"'
         )
     units, left_out = {}, {name: f"{other.name} has no such channel" for name in asked if name not in its}
+    without_unit = []
     for name in asked:
         if name in left_out:
             continue
         try:
             units[name] = _channel_unit(reference, other, name)
         except InputError as error:
-            if name in {*named, *reference.mapped, *other.mapped}:
+            if name in {*named, *mapped}:
                 raise
             left_out[name] = str(error)
+            without_unit.append(str(error))
     if not units:
-        raise InputError("\n".join([reason for name, reason in left_out.items() if name in its][:SHOWN]))
+        raise InputError("\n".join(without_unit[:SHOWN]))
     return units, left_out
 
 

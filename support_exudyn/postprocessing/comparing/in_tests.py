@@ -27,7 +27,7 @@ from support_exudyn.postprocessing.comparing.baselines import (
     write_baseline,
 )
 from support_exudyn.postprocessing.comparing.compared_channel import ComparedChannel, ComparedColumn, compared
-from support_exudyn.postprocessing.comparing.compared_file import recorded_columns, run_or_series
+from support_exudyn.postprocessing.comparing.compared_file import compared_file, recorded_columns
 from support_exudyn.postprocessing.comparing.mapping import BOTH_ERRORS, tolerance
 from support_exudyn.postprocessing.figures.selection import matching
 from support_exudyn.scenario.scenario import Scenario
@@ -53,10 +53,8 @@ def cached_run(folder: Path, scenario: Scenario, errors: bool = False) -> Result
     The key of a run is that of sweeps. Several processes may use the folder: the first makes a run, others
     that ask for the same wait for it. A new run removes those that are older than `OLD`.
 
-    Arguments:
-        folder: where runs are kept, which is there. errors: whether errors are estimated, see `simulate`.
-
-    Raises InputError and SimulationError as `simulate` does; OSError if the run cannot be kept.
+    errors: whether errors are estimated, see `simulate`, whose exceptions are raised; OSError if the run cannot
+    be kept.
     """
     path = folder / f"{key(scenario, errors)}.h5"
     with FileLock(path.with_suffix(".lock")):
@@ -75,12 +73,9 @@ def baseline_path(test_file: Path, name: str) -> Path:
 
 
 def against_baseline(item: Any, path: Path, updated: Sequence[str]) -> tuple[str, bool]:
-    """Compare with a baseline, or write it if its name is among those.
+    """Compare a result with errors, an Estimate, or Estimates by names, with a baseline, or write it.
 
-    Arguments:
-        item: a result with errors, an Estimate, or Estimates by their names.
-        path: of the baseline.
-        updated: names, or patterns of them, of baselines that are written.
+    updated: names, or patterns of them, of baselines that are written.
 
     Returns:
         The changes, or that there is no baseline, in lines, empty if nothing has changed; and whether
@@ -106,9 +101,6 @@ def against_baseline(item: Any, path: Path, updated: Sequence[str]) -> tuple[str
     return "\n".join([*report, f"to write it: pytest --baseline-update {path.stem}"]), False
 
 
-# --- closeness ---
-
-
 def closeness(
     result: Measured,
     reference: Reference,
@@ -132,20 +124,19 @@ def closeness(
 
     Raises InputError if there is nothing to compare, if units do not fit, or if the tolerance is none.
     """
-    if isinstance(reference, (str, PathLike)):
-        reference = run_or_series(Path(reference))
     is_share = isinstance(allowed, (int, float)) and not isinstance(allowed, bool)
     text = f"{100.0 * float(allowed or 0.0):.12g} %" if is_share else str(allowed)
     rule = BOTH_ERRORS if allowed is None else tolerance("*", text)
+    is_named = isinstance(reference, Mapping)
+    if isinstance(reference, (str, PathLike)):
+        read = compared_file(Path(reference))
+        reference = read.columns if read.run is None else read.run  # type: ignore[assignment]
     if isinstance(result, Result):
-        if isinstance(reference, (int, float, Estimate)):
-            refused = f"reference = {short(reference)}: is a number, the result a whole run"
-            raise InputError(f"{refused}; allowed: numbers by names")
         numbers = result.numbers(after, until) if result.coarser is not None else {}
         mine = {name: _column(number) for name, number in numbers.items()} | recorded_columns(result)
         its = _columns(reference)
         missing = [name for name in its if name not in mine]
-        if missing and (isinstance(reference, Mapping) or len(missing) == len(its)):
+        if missing and (is_named or len(missing) == len(its)):
             known = meant(missing[0], list(mine))
             raise InputError(f"{missing[0]}: the result has no such channel or number with an error; {known}")
         names = [name for name in its if name in mine]
@@ -170,8 +161,7 @@ def _columns(item: Any) -> dict[str, ComparedColumn]:
     if isinstance(item, Result):
         determined = [name for name, each in item.channels.items() if each.is_determined and name != "time"]
         return recorded_columns(item, determined)
-    if isinstance(item, SeriesFile):
-        item = item.series
+    item = item.series if isinstance(item, SeriesFile) else item
     if isinstance(item, Mapping) and item:
         return {name: _column(each) for name, each in item.items()}
     return {item.name if isinstance(item, NamedSeries) else ALONE: _column(item)}
@@ -179,6 +169,8 @@ def _columns(item: Any) -> dict[str, ComparedColumn]:
 
 def _column(item: Any) -> ComparedColumn:
     """A curve or number as a column. Raises InputError if it is neither."""
+    if isinstance(item, ComparedColumn):
+        return item
     if isinstance(item, NamedSeries):
         return ComparedColumn.of_series(item)
     if isinstance(item, Estimate):

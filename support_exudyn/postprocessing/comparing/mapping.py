@@ -23,7 +23,6 @@ from user_forces.values.value import InputError, Positive, Real, Value, short, v
 
 WRITTEN = re.compile(r"\s*([+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S.*?)?\s*")
 PERCENT, ERRORS = "%", "errors"
-ALLOWED = "allowed: a share of the reference's range, '2 %', or an amount with its unit, '0.1 mm'"
 
 
 @value
@@ -162,7 +161,8 @@ def tolerance(pattern: str, text: str) -> Tolerance:
     parts = WRITTEN.fullmatch(text)
     amount = float(parts[1]) if parts else math.nan
     if not pattern.strip() or parts is None or not parts[2] or not math.isfinite(amount):
-        raise InputError(f"{short(pattern)} = {short(text)}: {ALLOWED}")
+        allowed = "a share of the reference's range, '2 %', or an amount with its unit, '0.1 mm'"
+        raise InputError(f"{short(pattern)} = {short(text)}: allowed: {allowed}")
     return Tolerance(pattern.strip(), text.strip(), amount, parts[2])
 
 

@@ -6,7 +6,6 @@ curves are known at both of its ends. A measure without a value, such as a share
 """
 
 import math
-from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -28,9 +27,8 @@ EXACT = 1e-12  # of the largest value: rounding of a difference of curves that d
 class CommonCurves(NamedTuple):
     """Two curves at the same times.
 
-    time: [s], (n,). reference, other: their values, (n,).
-    interpolation_error: by how much interpolation may have changed their difference, (n,), >= 0, in the unit of
-        the curves; 0 at times that both have.
+    time: [s], (n,). reference, other: their values, (n,). interpolation_error: by how much interpolation may
+    have changed their difference, (n,), >= 0, in the unit of the curves; 0 at times that both have.
     """
 
     time: Values
@@ -82,19 +80,11 @@ def on_common_times(
 
 
 def interpolated(time: Values, values: Values, at: Values) -> tuple[Values, Values]:
-    """A curve at other times, by straight lines between its own.
+    """A curve at other times [s] `at` (m,), inside its own, by straight lines: values and their errors (m,).
 
     Between two times a and b the line differs from the curve f by (t - a) (b - t) f''/2 at most. As f''/2 the
-    larger of the divided second differences at a and b is taken. Where the curve has a kink or a jump,
-    these are of the size of the step itself, so the estimate is, too.
-
-    Arguments:
-        time: of the curve [s], (n,), increasing. values: (n,).
-        at: times [s], (m,), inside those of the curve.
-
-    Returns:
-        The values (m,), and by how much they may be wrong (m,), 0 at a record of the curve. Values next to an
-        unknown value are not known, and so are their errors.
+    larger of the divided second differences at a and b is taken, which have the size of a kink or a jump. The
+    error is 0 at a record of the curve. Next to an unknown value neither value nor error is known.
     """
     if time.size < 2:
         return np.repeat(values, at.size), np.zeros(at.size)
@@ -116,9 +106,6 @@ def interpolated(time: Values, values: Values, at: Values) -> tuple[Values, Valu
 
 class CurveMeasures(NamedTuple):
     """Measures of another curve c against a reference r at common times; d = c - r; <f> = 1/T integral f dt.
-
-    All are in the unit of the curves if nothing else is stated. A duration T is the sum of all intervals at
-    whose ends both are known.
 
     largest: d where its magnitude is largest, with its sign. largest_time: the first time of that [s].
     rms: sqrt(<d^2>). rms_of_range: the same over max r - min r.
@@ -151,13 +138,13 @@ def curve_measures(time: Values, reference: Values, other: Values) -> CurveMeasu
 
     Raises InputError if the lengths differ, or if the times do not increase.
     """
-    shapes = [np.shape(curve) for curve in (time, reference, other)]
-    if len(shapes[0]) != 1 or len(set(shapes)) != 1:
-        raise InputError(f"times and curves are of shapes {shapes}; allowed: one value for each time")
-    if not (np.isfinite(time).all() and (np.diff(time) > 0.0).all()):
-        raise InputError("the times do not increase; allowed: finite times [s], each later than the one before")
+    if not (time.shape == reference.shape == other.shape and (np.diff(time) > 0.0).all()):
+        raise InputError(
+            f"curves of shapes {reference.shape} and {other.shape} at times of shape {time.shape}: allowed: a "
+            "value at each time, and times [s] that increase"
+        )
     known = np.isfinite(reference) & np.isfinite(other)
-    t, r, c = (np.asarray(curve, dtype=np.float64)[known] for curve in (time, reference, other))
+    t, r, c = time[known], reference[known], other[known]
     if not t.size:
         return CurveMeasures()
     intervals = np.where(known[1:] & known[:-1], np.diff(time), 0.0)
@@ -186,7 +173,7 @@ def curve_measures(time: Values, reference: Values, other: Values) -> CurveMeasu
         r_squared=1.0 - _ratio(rms(d), spread) ** 2,
         magnitude_error=magnitude,
         phase_error=phase,
-        combined_error=math.hypot(magnitude, phase) if math.isfinite(phase) else math.nan,
+        combined_error=math.sqrt(magnitude**2 + phase**2),
         times=int(t.size),
     )
 
@@ -196,11 +183,6 @@ def _ratio(part: float, whole: float) -> float:
 
 
 # --- statistics ---
-
-STATISTICS: Mapping[str, Callable[[Values], float]] = {
-    "mean": lambda values: float(values.mean()),
-    "rms": lambda values: float(np.sqrt(np.mean(values**2))),
-}
 
 
 class StatisticDifference(NamedTuple):
@@ -233,19 +215,18 @@ def compared_statistics(first: Values, second: Values, among: int = 1) -> dict[s
             truth on average, so each has the confidence 0.95^(1/among) (Sidak).
     """
     known = np.isfinite(first) & np.isfinite(second)
-    first, second = first[known], second[known]
-    if first.size < 2:
+    both = np.stack([first[known], second[known]])
+    if both.shape[1] < 2:
         return {}
-    blocks = [np.array_split(values, BLOCKS) for values in (first, second)]
     quantile = float(stats.t.ppf(0.5 + 0.5 * CONFIDENCE ** (1.0 / among), BLOCKS - 1))
-    rounding = EXACT * float(np.abs((first, second)).max())
     result = {}
-    for name, statistic in STATISTICS.items():
-        values, half = (statistic(first), statistic(second)), math.nan
-        if first.size >= FEWEST * BLOCKS:
-            apart = [statistic(its) - statistic(mine) for mine, its in zip(*blocks, strict=True)]
-            half = quantile * float(stats.sem(apart)) + rounding
-        result[name] = StatisticDifference(*values, values[1] - values[0], half)
+    for name, statistic in (("mean", np.mean), ("rms", lambda each, axis: np.sqrt(np.mean(each**2, axis)))):
+        mine, its = map(float, statistic(both, axis=1))
+        half = math.nan
+        if both.shape[1] >= FEWEST * BLOCKS:
+            blocks = np.stack([statistic(block, axis=1) for block in np.array_split(both, BLOCKS, axis=1)])
+            half = quantile * float(stats.sem(np.diff(blocks)[:, 0])) + EXACT * float(np.abs(both).max())
+        result[name] = StatisticDifference(mine, its, its - mine, half)
     return result
 
 
@@ -255,7 +236,6 @@ LEAST_OVERLAP = 0.5  # of the shorter curve
 ALIKE = 0.5  # correlation from which on curves are taken to be alike
 APART = 0.05  # of correlation: by how much another shift is worse, and the valley between both
 FEWEST_JOINT = 8  # samples of the overlap
-MOST_SAMPLES = 2**22
 FLAT = 1e-12  # share of the largest variance of a piece, below which a piece is taken to be constant
 
 
@@ -303,15 +283,10 @@ def time_shift(reference_time: Values, reference: Values, other_time: Values, ot
             "are not all equal"
         )
     spacing = min(float(np.median(np.diff(time))) for time, _ in known)
-    if max(np.ptp(time) for time, _ in known) > MOST_SAMPLES * spacing:
-        raise InputError(
-            f"more than {MOST_SAMPLES} samples of {spacing:g} s would be needed; allowed: a shorter piece"
-        )
+    counts = [int(np.ptp(time) / spacing * (1.0 + 1e-6) + 1e-6) + 1 for time, _ in known]
     mine, its = (
-        np.interp(
-            time[0] + spacing * np.arange(int(np.ptp(time) / spacing * (1.0 + 1e-6) + 1e-6) + 1), time, values
-        )
-        for time, values in known
+        np.interp(time[0] + spacing * np.arange(count), time, values)
+        for count, (time, values) in zip(counts, known, strict=True)
     )
     lags, heights = _correlations(mine, its)
     best = int(heights.argmax())
@@ -340,21 +315,17 @@ def _correlations(mine: Values, its: Values) -> tuple[npt.NDArray[np.intp], Valu
     least = max(FEWEST_JOINT, math.ceil(LEAST_OVERLAP * min(mine.size, its.size)))
     lags = signal.correlation_lags(its.size, mine.size)
     tried = (lags >= least - mine.size) & (lags <= its.size - least)
-    first, second = mine - mine.mean(), its - its.mean()
-    ones, others = np.ones(mine.size), np.ones(its.size)
-    pairs = (
-        (ones, others),
-        (first, others),
-        (ones, second),
-        (first**2, others),
-        (ones, second**2),
-        (first, second),
-    )
-    sums = [signal.correlate(its, mine, method="fft")[tried] for mine, its in pairs]
-    mean, other_mean, *squares, product = (each / np.round(sums[0]) for each in sums[1:])
-    variances = squares[0] - mean**2, squares[1] - other_mean**2
+
+    def sums(own: Values, others: Values) -> Values:
+        return np.asarray(signal.correlate(others, own, method="fft")[tried])
+
+    first, second, ones, others = mine - mine.mean(), its - its.mean(), np.ones(mine.size), np.ones(its.size)
+    count = np.round(sums(ones, others))
+    mean, other_mean = sums(first, others) / count, sums(ones, second) / count
+    variances = sums(first**2, others) / count - mean**2, sums(ones, second**2) / count - other_mean**2
     known = np.all([each > FLAT * each.max() for each in variances], axis=0)
     if not known.any():
         raise InputError("the curves do not vary together at any shift; allowed: curves that vary for longer")
     size = np.sqrt(np.where(known, variances[0] * variances[1], 1.0))
-    return lags[tried], np.where(known, np.clip((product - mean * other_mean) / size, -1.0, 1.0), -1.0)
+    product = sums(first, second) / count - mean * other_mean
+    return lags[tried], np.where(known, np.clip(product / size, -1.0, 1.0), -1.0)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import math
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Iterator
@@ -59,9 +58,9 @@ def table(pair: ComparedPair) -> Sheet:
 
 def _cells(channel: ComparedChannel) -> Iterator[tuple[str, ...]]:
     """The cells of the rows of a channel, in the unit in which its mean and its differences are read best."""
-    largest = channel.largest.value
-    apart = largest if math.isfinite(largest) else abs(channel.mean.value)
-    shown = readable_change(channel.unit, max(abs(mean.value) for mean in channel.means[:2]), apart)
+    mean, largest = channel.rows[0], channel.largest.value
+    apart = largest if math.isfinite(largest) else abs(mean.difference)
+    shown = readable_change(channel.unit, max(abs(mean.reference), abs(mean.other)), apart)
     for row in channel.rows:
         unit, digits = (DisplayUnit(PERCENT, 1.0), 3) if row.unit == PERCENT else (shown, DIGITS)
         numbers = (unit.scale * value for value in (row.reference, row.other, row.difference))
@@ -69,19 +68,16 @@ def _cells(channel: ComparedChannel) -> Iterator[tuple[str, ...]]:
         if math.isinf(row.error):
             difference += " ± not known" if difference else ""
         elif not math.isnan(row.error + row.difference):
-            estimate = Estimate(row.difference, row.error, row.unit)
-            difference = to_error(estimate, unit.scale, MOST_DIGITS)
+            difference = to_error(Estimate(row.difference, row.error, row.unit), unit.scale, MOST_DIGITS)
         tolerance = channel.tolerance.text if channel.tolerance is not None and row.verdict else ""
         when = f", at {row.time:.6g} s" if math.isfinite(row.time) else ""
         yield row.channel, f"{row.measure}{when}", unit.name, *sides, difference, tolerance, row.verdict or ""
 
 
-# --- notes ---
-
-
 def notes(pair: ComparedPair) -> Iterator[str]:
     """Notes on a comparison: reading, shifts, the horizon, times, gaps, what is left out."""
-    for file in (pair.reference, pair.other):
+    files = pair.reference, pair.other
+    for file in files:
         yield from (f"{file.name}: {note}" for note in file.notes)
         if file.shift and (pair.shift is None or file is pair.reference):
             yield f"{file.name}: {amount(file.shift, 's', 4)} are added to its times"
@@ -92,15 +88,14 @@ def notes(pair: ComparedPair) -> Iterator[str]:
             f"{shift.channel} (correlation {shift.correlation:.4f}); that is taken off its times"
         )
     if math.isfinite(pair.horizon):
-        file = min((pair.reference, pair.other), key=lambda file: file.horizon)
         yield (
-            f"point by point up to {pair.horizon:.6g} s, the horizon of {file.name}, from which on shorter "
-            "steps change its impacts; after it by statistics, if there are enough common times, with "
+            f"point by point up to {pair.horizon:.6g} s, the horizon of "
+            f"{min(files, key=lambda each: each.horizon).name}, from which on shorter steps change impacts; "
+            "after it by statistics, if there are enough common times, with "
             f"{100.0 * CONFIDENCE:.3g} % confidence of all together"
         )
     for name, channel in pair.channels.items():
-        sides = (pair.reference, channel.common.reference), (pair.other, channel.common.other)
-        for file, values in sides:
+        for file, values in zip(files, channel.common[1:3], strict=True):
             if missing := int(np.count_nonzero(~np.isfinite(values))):
                 yield f"{name}: {file.name} has no value at {missing} of {values.size} times"
     name, channel = next(iter(pair.channels.items()))
@@ -145,35 +140,29 @@ def as_data(compared: FilesCompared) -> dict[str, Any]:
 
 
 def _channel_data(channel: ComparedChannel) -> dict[str, Any]:
-    reference, other, mean = (number._asdict() for number in channel.means)
+    kinds = {name: {**each._asdict(), "equal": each.equal} for name, each in channel.statistics.items()}
     return {
         "unit": channel.unit,
         "verdict": channel.verdict,
         "tolerance": None if channel.tolerance is None else channel.tolerance.text,
         "allowed": channel.allowed,
         "faults": channel.faults,
-        "reference": reference,
-        "other": other,
-        "mean": mean,
+        "mean": channel.mean._asdict(),
         "largest": channel.largest._asdict(),
         "over_errors": channel.over_errors,
         "measures": channel.measures._asdict(),
-        "statistics": {
-            name: {**each._asdict(), "equal": each.equal} for name, each in channel.statistics.items()
-        },
+        "statistics": kinds,
         "rows": [row._asdict() for row in channel.rows],
     }
 
 
 def write_csv(compared: FilesCompared, path: Path) -> None:
     """Write all rows as CSV in SI, whole or not at all; empty cells where a number is not known."""
-    with whole_file(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(("file", *ComparedRow._fields))
-        for pair in compared.pairs:
-            for row in pair.rows():
-                cells = ("" if each is None or each != each else each for each in row)
-                writer.writerow((pair.other.name, *cells))
+    import pandas as pd  # which a comparison without a file has no use for
+
+    rows = [(pair.other.name, *row) for pair in compared.pairs for row in pair.rows()]
+    with whole_file(path) as temporary:
+        pd.DataFrame(rows, columns=["file", *ComparedRow._fields]).to_csv(temporary, index=False)
 
 
 def write_junit(compared: FilesCompared, path: Path) -> None:
@@ -184,21 +173,20 @@ def write_junit(compared: FilesCompared, path: Path) -> None:
     """
 
     def within(parent: ElementTree.Element, tag: str, text: str = "", **attributes: str) -> ElementTree.Element:
-        named = {name: cleaned(value) for name, value in attributes.items()}
-        element = ElementTree.SubElement(parent, tag, named)
+        element = ElementTree.SubElement(parent, tag, {name: cleaned(it) for name, it in attributes.items()})
         element.text = cleaned(text) or None
         return element
 
     whole = ElementTree.Element("testsuites", name="support-exudyn compare")
     for pair in compared.pairs:
         suite = within(whole, "testsuite", name=f"{pair.other.name} less {pair.reference.name}", errors="0")
-        for name, channel in pair.channels.items():
+        for name, reason in {**dict.fromkeys(pair.channels, ""), **pair.left_out}.items():
             case = within(suite, "testcase", classname=pair.other.name, name=name)
-            if faults := channel.faults:
-                within(case, "failure", "\n".join(faults), type=channel.verdict, message=faults[0])
-        for name, reason in pair.left_out.items():
-            case = within(suite, "testcase", classname=pair.other.name, name=name)
-            within(case, "skipped", message=reason)
+            if reason:
+                within(case, "skipped", message=reason)
+            elif faults := pair.channels[name].faults:
+                kind = pair.channels[name].verdict
+                within(case, "failure", "\n".join(faults), type=kind, message=faults[0])
         if text := "\n".join(notes(pair)):
             within(suite, "system-out", text)
     for counted in (whole, *whole):

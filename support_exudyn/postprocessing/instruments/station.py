@@ -1,6 +1,5 @@
 """A measuring station: the instruments on a machine, by name; their samples of a run; its file and table."""
 
-import csv
 import math
 from collections.abc import Mapping
 from pathlib import Path
@@ -154,18 +153,16 @@ def write_measured(measured: Mapping[str, NamedSeries], path: str | Path) -> Pat
 
     Raises InputError if a run is at the path; OSError if it cannot be written.
     """
+    import pandas as pd  # which readings alone have no use for
+
     path = Path(path)
     check_is_no_run(path)
-    time = np.unique(np.concatenate([series.time for series in measured.values()]))
-    columns = {"time_s": time}
+    columns = {}
     for name, series in measured.items():
         unit, scale = WRITTEN[series.unit or ""]
-        column = np.full(time.size, math.nan)
-        column[np.searchsorted(time, series.time)] = np.round(scale * series.values, DECIMALS) + 0.0  # no -0
-        columns[f"{name}_{unit}"] = column
-    with whole_file(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(columns)
-        for row in zip(*(column.tolist() for column in columns.values()), strict=True):
-            writer.writerow("" if math.isnan(cell) else f"{cell:.{DIGITS}g}" for cell in row)
+        rounded = np.round(scale * series.values, DECIMALS) + 0.0  # no -0
+        columns[f"{name}_{unit}"] = pd.Series(rounded, series.time)
+    table = pd.concat(columns, axis=1, sort=True).rename_axis("time_s").reset_index()
+    with whole_file(path) as temporary:
+        table.to_csv(temporary, index=False, float_format=f"%.{DIGITS}g")
     return path

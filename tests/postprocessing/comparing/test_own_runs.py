@@ -12,7 +12,7 @@ import pytest
 
 from support_exudyn import CubicStep, Result, Scenario, machine, simple_scenario, simulate
 from support_exudyn.postprocessing.comparing.compared_channel import compared
-from support_exudyn.postprocessing.comparing.compared_file import curve_errors, recorded_columns
+from support_exudyn.postprocessing.comparing.compared_file import recorded_columns
 from support_exudyn.postprocessing.comparing.measures import compared_statistics
 from tests.cases.run_cases import FORCE, loose_support
 
@@ -120,8 +120,8 @@ def test_a_clearance_that_is_larger_by_a_thousandth_is_told() -> None:
 
 def test_errors_cover_what_lies_beyond_the_horizon() -> None:
     first, _ = parted()
-    errors = curve_errors(first, [FORCE])[FORCE]
+    errors = recorded_columns(first, [FORCE])[FORCE].errors
     np.testing.assert_array_equal(np.isinf(errors), first.time >= first.horizon)
     assert (errors > 0.0).all()
     bare = replace(first, coarser=None, goal=None)
-    assert np.isnan(curve_errors(bare, [FORCE])[FORCE]).all()
+    assert np.isnan(recorded_columns(bare, [FORCE])[FORCE].errors).all()
