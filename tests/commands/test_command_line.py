@@ -50,7 +50,7 @@ def test_the_installed_command_is_the_module() -> None:
         ("show", 2, "RUN requires an argument"),
         ("show run.h5 --after soon", 2, '--after: unable to convert "soon"'),
         ("run a.toml --accuracy 5", 2, "allowed: draft, standard, reference, or a relative error from"),
-        ("render run.h5 --movie git", 2, 'Did you mean "gif"?'),
+        ("baseline chek .", 2, 'Did you mean "check"?'),
         ("render run.h5 --size big", 2, "allowed: width and height in pixels, such as 1280x720"),
         ("sweep a.toml --workers 0", 2, "--workers. Must be >= 1"),
         ("init four_column", 2, "did you mean four_column_support? allowed: four_column_support, two_leg"),
