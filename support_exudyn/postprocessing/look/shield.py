@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 
 from shapely.geometry import Point, Polygon
 from shapely.ops import unary_union
@@ -168,17 +169,16 @@ class _Support:
                 continue  # balls
             body, centre = pin.journal.body, pin.journal.point[:2]
             end = (self.bracket if name in ("rear_base", "front_base") else self.cheek) + 0.9 * self.plate
-            if body == "front_link":  # through one link and the plates next to it
-                inner = self.pair - 0.015 * self.length - 1.2 * self.plate
-                yield from self._of_pair(
-                    body, Role.PIN,
-                    lambda z, at_=centre, in_=inner, out=end: tube(
-                        at(at_, math.copysign(in_, z)), at(at_, math.copysign(out, z)), self.pin
-                    ),
-                    f"pin_{name}",
-                )  # fmt: skip
+            if body == "front_link":
+                short = partial(self._short_pin, centre, end)
+                yield from self._of_pair(body, Role.PIN, short, f"pin_{name}")
             else:
                 yield Shape(f"pin_{name}", body, Role.PIN, tube(at(centre, -end), at(centre, end), self.pin))
+
+    def _short_pin(self, centre: Vector2, end: float, z: float) -> Trimesh:
+        """A pin through one front link and the plates next to it, by the place of the link."""
+        inner = self.pair - 0.015 * self.length - 1.2 * self.plate
+        return tube(at(centre, math.copysign(inner, z)), at(centre, math.copysign(end, z)), self.pin)
 
     def _columns(self) -> Iterator[Shape]:
         """Both columns of each pair, and a jack in the middle; cylinder and rod as long as drives need them."""

@@ -117,9 +117,7 @@ class Painter:
             self._add(Circle(centre, play, fill=False, ec="#9a9a9a", ls=(0, (3.0, 2.5)), zorder=2.5))
             text = f"\u00d7 {format_round(view.enlargement)}"
             if columns > 1:
-                self._write(
-                    (x + 4, y + 3), f"{as_words(view.name)} {text}", 24 / columns, va="top"
-                )
+                self._write((x + 4, y + 3), f"{as_words(view.name)} {text}", 24 / columns, va="top")
             else:
                 self._write((x + GAP, y + GAP), f"clearance {text}", 14, va="top", weight="bold")
                 carrier = view.pin.bore.body
@@ -247,7 +245,11 @@ class Painter:
         length = math.hypot(*way)
         if length > 1.8 * thick:
             head, edge = min(4.2 * thick, 0.7 * length), withStroke(linewidth=0.7 * thick, foreground="white")
-            shape = {"head_length": head, "head_width": 0.84 * head, "length_includes_head": True}
+            shape: dict[str, Any] = {
+                "head_length": head,
+                "head_width": 0.84 * head,
+                "length_includes_head": True,
+            }
             self._add(FancyArrow(
                 *tail, *way, width=thick, fc=colour, lw=0.0, zorder=4.5, path_effects=[edge], **shape
             ))  # fmt: skip
