@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from support_exudyn.files.own_modules import with_known_laws
-from support_exudyn.formulations.registry import CHEAPEST_FIRST, FORMULATIONS, Formulation, formulation
+from support_exudyn.formulations.registry import CHEAPEST_FIRST, formulation
 from support_exudyn.machines.check.freedoms import shared
 from support_exudyn.model.pins import ClearancePin, Pin
 from support_exudyn.postprocessing.figures import selection
@@ -270,7 +270,7 @@ def what_is_run(scenario: Scenario) -> list[Row]:
 def how(result: Result) -> list[Row]:
     """Formulation, accuracy, counts, time taken and versions: name and words.
 
-    If the program chose the formulation, the reason follows its name.
+    If the program chose the formulation, those that do not cover the scene follow its name.
     """
     scenario = result.scenario
     accuracy, cost = "none was asked for: settings as they stand", ""
@@ -322,28 +322,18 @@ def unmet(result: Result) -> str:
 
 
 def _formulation(result: Result) -> str:
-    """The formulation that ran, and if that was left to the program, why this one."""
-    asked = result.provenance.get(FORMULATION_ASKED, result.scenario.formulation)
+    """The formulation that ran; if that was left to the program, also which ones do not cover the scene."""
     ran = formulation(result.scenario.formulation).name
-    if asked != "auto":
+    if result.provenance.get(FORMULATION_ASKED, result.scenario.formulation) != "auto":
         return ran
-    if result.goal is None and ran == "exudyn":
-        return f"{ran} (auto: without an accuracy that is the one wherever it covers the scene)"
-    if result.goal is None:
-        return f"{ran} (auto: {_why_not(FORMULATIONS['exudyn'], result)})"
-    cheaper = [one for one in CHEAPEST_FIRST if one.cost < FORMULATIONS[ran].cost]
-    if not cheaper:
-        return f"{ran} (auto: the cheapest, and it covers this scene)"
-    return f"{ran} (auto: {'; '.join(_why_not(one, result) for one in cheaper)})"
-
-
-def _why_not(cheaper: Formulation, result: Result) -> str:
-    try:
-        cheaper.check(dataclasses.replace(result.scenario, formulation="auto"))
-    except InputError as error:
-        reason = " ".join(str(error).split()).partition("; allowed")[0].partition(": not covered")[0]
-        return f"{cheaper.name} does not cover {reason}"
-    return f"{cheaper.name} would need too many steps for its friction"
+    reasons = ["auto"]
+    for other in (one for one in CHEAPEST_FIRST if one.name != ran):
+        try:
+            other.check(dataclasses.replace(result.scenario, formulation="auto"))
+        except InputError as error:
+            reason = " ".join(str(error).split()).partition("; allowed")[0].partition(": not covered")[0]
+            reasons.append(f"{other.name} does not cover {reason}")
+    return f"{ran} ({'; '.join(reasons)})"
 
 
 def words(item: Any) -> str:

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 from matplotlib.figure import Figure
 
 from support_exudyn.mechanics.trajectory import Series
-from support_exudyn.postprocessing.page.live import MOST_POINTS, of_drawing, thinned
+from support_exudyn.postprocessing.page.live import of_drawing, thinned
 from tests.often import often
 
 MOST = 60
@@ -48,19 +47,6 @@ def test_every_piece_keeps_its_extremes_and_its_gaps(curve: Series) -> None:
             assert np.nanmin(inside) == np.nanmin(whole)
             assert np.nanmax(inside) == np.nanmax(whole)
         assert np.isnan(whole).any() == np.isnan(inside).any()  # a gap is still one
-
-
-def test_a_peak_of_one_record_is_not_lost_and_a_curve_has_few_points() -> None:
-    time = np.linspace(0.0, 5.0, 500_001)
-    force = np.sin(40.0 * time)
-    force[123_457], force[400_001] = 443.2101234567, -7.0
-    figure = Figure()
-    figure.subplots().plot(time, force, label="rough")
-    (one,) = of_drawing(figure, [0]).panels[0].curves
-    assert len(one.x) <= MOST_POINTS + 2
-    assert max(v for v in one.y if v is not None) == 443.2101
-    assert min(v for v in one.y if v is not None) == -7.0
-    assert one.x[one.y.index(443.2101)] == pytest.approx(time[123_457], rel=1e-7)
 
 
 def test_curves_of_a_drawing_are_its_labelled_lines_from_the_undermost() -> None:
