@@ -330,7 +330,7 @@ def _formulation(result: Result) -> str:
     for other in (one for one in CHEAPEST_FIRST if one.name != ran):
         try:
             other.check(dataclasses.replace(result.scenario, formulation="auto"))
-        except InputError as error:
+        except InputError as error:  # noqa: PERF203
             reason = " ".join(str(error).split()).partition("; allowed")[0].partition(": not covered")[0]
             reasons.append(f"{other.name} does not cover {reason}")
     return f"{ran} ({'; '.join(reasons)})"
