@@ -97,17 +97,6 @@ def label(name: str) -> str:
     return f"{name}, whole run" if name.endswith(WHOLE_RUN) else name
 
 
-def with_error(found: Estimate) -> tuple[str, str, str]:
-    """A number, its error to its leading digits (empty if it is NaN), and the unit in which both are."""
-    unit = readable(found.unit, abs(found.value))
-    value, error = unit.scale * found.value, unit.scale * found.error
-    if math.isfinite(error) and error > 0.0:
-        digits = min(max(0, 1 - math.floor(math.log10(error))), 9)
-        return f"{value:.{digits}f}", f"{error:.1e}", unit.name
-    unknown = "" if math.isnan(error) else "not known" if error else "0"
-    return f"{value:.{DIGITS}g}", unknown, unit.name
-
-
 def side_by_side(found: Sequence[Estimate | None], most: int = DIGITS) -> tuple[str, ...]:
     """Unit, and numbers of several runs in it with their errors, of at most so many digits; None: empty."""
     there = [one for one in found if one is not None]

@@ -27,7 +27,7 @@ from support_exudyn.postprocessing.shown_numbers import (
     label,
     numbers,
     shown,
-    with_error,
+    side_by_side,
 )
 from support_exudyn.scenario.pin_stability import PinOutlook, pin_outlooks
 from support_exudyn.scenario.scenario import Scenario
@@ -72,15 +72,14 @@ def numbers_table(result: Result, ends: tuple[float, float] = WHOLE, only: Seque
     """
     every = numbers(result, *ends)
     found = {name: every[name] for name in only} if only else shown([result], [every], *ends)[0]
-    rows: list[Row] = [(label(name), *with_error(number)) for name, number in found.items()]
-    header: tuple[str, ...] = ("number", ">value", ">±", "unit")
-    if not any(row[2] for row in rows):
-        header, rows = (*header[:2], header[3]), [(*row[:2], row[3]) for row in rows]
+    rows: list[Row] = [(label(name), *side_by_side([number])[::-1]) for name, number in found.items()]
     known = (
-        "± estimated numerical error" if result.coarser else "numerical errors not known: no accuracy was asked"
+        "± estimated numerical error; without one it is below the last digit, or not known"
+        if result.coarser
+        else "numerical errors not known: no accuracy was asked"
     )
     title = f"{'numbers' if only else 'what came out'}, {selection.window_text(result, *ends)} ({known})"
-    return ResultTable(title, header, rows)
+    return ResultTable(title, ("number", ">value", "unit"), rows)
 
 
 def impacts_table(
@@ -162,8 +161,8 @@ def in_short(result: Result) -> list[Row]:
     named = ("mean force", f"{own}.force.mean"), ("peak force", peak), ("fluctuation (RMS)", f"{own}.force.std")
     rows = []
     for what, name in named:
-        value, error, unit = with_error(every[name]) if name in every else ("not recorded", "", "")
-        rows.append((f"{own}: {what}", f"{value} ± {error} {unit}" if error else f"{value} {unit}".rstrip()))
+        unit, value = side_by_side([every[name]]) if name in every else ("", "not recorded")
+        rows.append((f"{own}: {what}", f"{value} {unit}".rstrip()))
     if len(joints) > 1:
         others = f"; smaller forces in {', '.join(joints[1:])}"
     onsets = next((some for pin, some in result.onsets.items() if result.scenario.contact_stem(pin) == own), ())

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from support_exudyn import Onset, Result
-from support_exudyn.postprocessing.shown_numbers import hardest_first, shown, with_error
+from support_exudyn.postprocessing.shown_numbers import hardest_first, shown, side_by_side
 from support_exudyn.postprocessing.summary import numbers_table
 from support_exudyn.simulation.estimate import Estimate
 from tests import synthetic
@@ -48,15 +48,15 @@ def test_numbers_are_of_the_piece_that_was_asked_for() -> None:
 @pytest.mark.parametrize(
     ("found", "row"),
     [
-        (Estimate(12345.6, 78.0, "N"), ("12.346", "7.8e-02", "kN")),
-        (Estimate(1.5e-3, 2e-9, "m"), ("1.5000000", "2.0e-06", "mm")),
-        (Estimate(20.0, 300.0, "N"), ("20", "3.0e+02", "N")),
-        (Estimate(2.0, 0.0, "N"), ("2", "0", "N")),
-        (Estimate(2.0, math.inf, "N"), ("2", "not known", "N")),
+        (Estimate(12345.6, 78.0, "N"), ("kN", "12.35 ± 0.08")),
+        (Estimate(1.5e-3, 2e-9, "m"), ("mm", "1.5")),
+        (Estimate(20.0, 300.0, "N"), ("N", "20 ± 300")),
+        (Estimate(2.0, 0.0, "N"), ("N", "2")),
+        (Estimate(2.0, math.inf, "N"), ("N", "2")),
     ],
 )
 def test_a_number_has_the_digits_of_its_error(found: Estimate, row: tuple[str, ...]) -> None:
-    assert with_error(found) == row
+    assert side_by_side([found]) == row
 
 
 # --- order ---
