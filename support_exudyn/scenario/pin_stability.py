@@ -30,7 +30,6 @@ from support_exudyn.mechanics.reactions import equations
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.drives.drive import Reciprocating
 from support_exudyn.model.linkage import Linkage
-from support_exudyn.model.pins import ClearancePin
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.contact import JournalContact
 from user_forces.normal.law import LoadError
@@ -121,15 +120,16 @@ def pin_outlooks(
     way = _Way.of(scenario, _moving_times(scenario) if times is None else times)
     if way is None:
         return []
-    asked = [name for name in scenario.unloaded.pins if pins is None or name in pins]
-    return [_outlook(way, name, clearances.get(name), usual) for name in asked]
-
-
-def _outlook(way: "_Way", name: str, own: ClearancePin | None, usual: ClearancePin) -> PinOutlook:
-    pin = usual if own is None else own
-    second, contact = pin.bore == "first", without_state(pin.contact)
-    journals, found = way.loaded(name, second, contact)
-    return PinOutlook(name, own is None, contact, way.times, way.travels, way.turns, journals, found)
+    outlooks = []
+    for name in scenario.unloaded.pins:
+        if pins is None or name in pins:
+            pin, assumed = clearances.get(name, usual), name not in clearances
+            contact = without_state(pin.contact)
+            journals, found = way.loaded(name, pin.bore == "first", contact)
+            outlooks.append(
+                PinOutlook(name, assumed, contact, way.times, way.travels, way.turns, journals, found)
+            )
+    return outlooks
 
 
 @dataclass(frozen=True)

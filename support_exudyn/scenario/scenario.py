@@ -12,6 +12,7 @@ from pydantic import field_validator, model_validator
 
 from support_exudyn.scenario.presentation import presenter
 from support_exudyn.scenario.scenario_data import ACCURACIES, LARGEST_GOAL, SMALLEST_GOAL, ScenarioData
+from support_exudyn.scenario.solver_settings import MOST_SECTIONS, REFINED_TOLERANCE, SMALLEST_TOLERANCE
 from support_exudyn.scenario.timescales import default_period
 from support_exudyn.scenario.validation import check
 from user_forces.values.value import InputError, short, value
@@ -90,10 +91,12 @@ class Scenario(ScenarioData):
         if self.goal is not None:
             return replace(self, accuracy=max(SMALLEST_GOAL, self.goal / factor**2))
         if self.chooses_steps:
-            return replace(self, solver=self.solver.with_smaller_tolerance(factor))
+            tolerance = max(SMALLEST_TOLERANCE, self.solver.tolerance / factor**REFINED_TOLERANCE)
+            return replace(self, solver=replace(self.solver, tolerance=tolerance))
         finer = replace(self.solver, impact_steps=round(factor * self.solver.impact_steps))
         if self.dimensions == 3:
-            finer = finer.with_more_sections(factor)
+            sections = round(factor * (finer.sections - 1)) + 1
+            finer = replace(finer, sections=min(max(sections, 2), MOST_SECTIONS))
         # steps never reach over a record
         step = min(self.step, self.recorded_every) / factor
         return replace(self, step=step, record_period=self.recorded_every, solver=finer)

@@ -249,14 +249,15 @@ class ScenarioData(Value, ABC):
     @cached_property
     def _coupled_drives(self) -> dict[str, Drive]:
         """Drives of the parts that follow others because nothing is said of them, by name."""
-        leaders = self.machine.leaders.items()
-        return {name: self._coupled_drive(name, leader) for name, leader in leaders if name not in self.drives}
-
-    def _coupled_drive(self, name: str, leader: str) -> Drive:
-        try:
-            return self.machine.coupled_drive(name, self.drives.get(leader, self.drive), self.duration)
-        except InputError as error:
-            raise InputError(self.of_drives((leader,), error)) from None
+        found = {}
+        for name, leader in self.machine.leaders.items():
+            if name not in self.drives:
+                lead = self.drives.get(leader, self.drive)
+                try:
+                    found[name] = self.machine.coupled_drive(name, lead, self.duration)
+                except InputError as error:
+                    raise InputError(self.of_drives((leader,), error)) from None
+        return found
 
     def of_drives(self, names: Collection[str], error: InputError) -> str:
         """What is said of the drives of these parts, with the fields that say them."""

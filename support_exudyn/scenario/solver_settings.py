@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import Annotated, Any, Literal
 
 from pydantic import Field
@@ -75,11 +74,3 @@ class SolverSettings(Value):
             if given.get(key, only) != only:
                 warnings.warn(f"solver.{key} = {given[key]!r} has no effect any more: {reason}", stacklevel=2)
         return {key: item for key, item in given.items() if key not in REMOVED}
-
-    def with_more_sections(self, factor: float) -> SolverSettings:
-        """Sections of clearance pins so many times shorter, within what is allowed."""
-        return replace(self, sections=min(max(round(factor * (self.sections - 1)) + 1, 2), MOST_SECTIONS))
-
-    def with_smaller_tolerance(self, factor: float) -> SolverSettings:
-        """A tolerance factor^3 times smaller, at least the smallest that can be asked for."""
-        return replace(self, tolerance=max(SMALLEST_TOLERANCE, self.tolerance / factor**REFINED_TOLERANCE))

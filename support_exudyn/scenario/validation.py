@@ -16,7 +16,6 @@ from support_exudyn.model.linkage import GROUND, Linkage
 from support_exudyn.model.loads.falling_block import FallingBlock
 from support_exudyn.model.loads.load import ActingLoad, AnyLoad
 from support_exudyn.model.pins import Pin
-from support_exudyn.model.spatial_linkage import SpatialLinkage
 from support_exudyn.scenario.scenario_data import ScenarioData
 from user_forces.values.names import nearest, unknown
 from user_forces.values.value import InputError, check_names
@@ -45,7 +44,10 @@ def check(scenario: ScenarioData) -> None:
                 f"pins.{name}: its points on both bodies are {apart:.3g} m apart at the start; "
                 "allowed for an ideal pin: 0, for a clearance pin: any"
             )
-    _check_guides(scenario, linkage)
+    _check_known("guides", scenario.guides, linkage.slides, "guide")
+    for name, guide in scenario.guides.items():
+        if misfit := guide.misfit(linkage.slides[name].turns):
+            raise ValueError(f"guides.{name}: {misfit}")
     if scenario.record_period is not None and scenario.record_period > scenario.duration:
         raise ValueError(
             f"record_period = {scenario.record_period} s: allowed: at most the duration, {scenario.duration} s"
@@ -80,13 +82,6 @@ def _check_point_masses(scenario: ScenarioData) -> None:
         )
 
 
-def _check_guides(scenario: ScenarioData, linkage: Linkage) -> None:
-    _check_known("guides", scenario.guides, linkage.slides, "guide")
-    for name, guide in scenario.guides.items():
-        if misfit := guide.misfit(linkage.slides[name].turns):
-            raise ValueError(f"guides.{name}: {misfit}")
-
-
 def _check_space(scenario: ScenarioData) -> None:
     try:
         space = scenario.space
@@ -108,11 +103,7 @@ def _check_space(scenario: ScenarioData) -> None:
                 f"bearings.{name}: {bearing.misfit} at the start; allowed for an ideal pin: none, for a "
                 "clearance pin: any"
             )
-    _check_pairs(scenario, space)
-
-
-def _check_pairs(scenario: ScenarioData, space: SpatialLinkage) -> None:
-    """Rigid actuators of a pair cannot be driven apart: what they stand under is rigid, too."""
+    # rigid actuators of a pair cannot be driven apart: what they stand under is rigid, too
     for name, actuator in space.actuators.items():
         if actuator.actuator in scenario.compliant_actuators:
             continue

@@ -65,14 +65,6 @@ def place(name: str) -> str | None:
     return _of_classes.get(name)
 
 
-def import_place_of(name: str) -> None:
-    """Import the module in which a class of ours lies; all of them if that is not known."""
-    if name in _of_classes:
-        import_module(_of_classes[name])
-    else:
-        import_all()
-
-
 def import_all() -> None:
     """Import all modules of ours that have classes of values."""
     while missing := set(_of_classes.values()) - sys.modules.keys():  # each may tell of others

@@ -19,6 +19,7 @@ import numbers
 from abc import ABC
 from collections.abc import Mapping, Sequence
 from decimal import Decimal
+from importlib import import_module
 from typing import Annotated, Any, ClassVar, TypeVar
 
 import numpy as np
@@ -186,7 +187,8 @@ class Value:
 def known_class(name: str) -> type[Value] | None:
     """The class of this name, imported if it is one of ours; None if there is none."""
     if name not in Value._register:
-        places.import_place_of(name)
+        module = places.place(name)
+        import_module(module) if module else places.import_all()
     return Value._register.get(name)
 
 
@@ -228,17 +230,15 @@ def _check_whole(cls: Any) -> None:
     own = [name for name in missing if name in vars(cls)]
     if not missing or own or ABC in cls.__bases__:
         return
-    told = [f"{name}, {_first_line(getattr(cls, name))}" for name in missing]
+    told = []
+    for name in missing:
+        method = getattr(cls, name)
+        meaning = (inspect.getdoc(method) or "see its kind").partition("\n")[0].rstrip(".")
+        told.append(f"{name}, a {'property' if isinstance(method, property) else 'method'} ({meaning})")
     raise InputError(
         f"class {cls.__name__}: lacks {'; '.join(told)}; allowed: a class that defines "
         f"{'it' if len(missing) == 1 else 'them'}, or ABC among its bases if only others are derived from it"
     )
-
-
-def _first_line(method: Any) -> str:
-    """What a method is for; a property is none that is called."""
-    said = (inspect.getdoc(method) or "see its kind").partition("\n")[0].rstrip(".")
-    return f"{'a property' if isinstance(method, property) else 'a method'} ({said})"
 
 
 def _plain(item: Any) -> Any:

@@ -1,7 +1,7 @@
 """Scenarios as TOML files, and the JSON Schema of these files."""
 
 import numbers
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -163,27 +163,23 @@ def scenario_file_of(
     scenario = _scenario(rest, faults, folder, machine, sourced)
     faults.check()
     assert machine is not None  # else it is among the faults
-    warnings = (*machine.warnings, *_undriven(scenario, "drive" in rest))
+    warnings = list(machine.warnings)
+    still = [name for name in scenario.driven if isinstance(scenario.drive_of(name), Held)]
+    if still and "drive" not in rest and not any(name in scenario.drives for name in still):
+        warnings.append(
+            f"{', '.join(still)}: held, for the scenario has no [drive]; allowed: [drive], [drives.NAME], or "
+            '[drive] type = "Held" for parts that are to stand still'
+        )
     return ScenarioFile(
         scenario,
         head.name,
         head.description,
         head.errors,
         machine.assumed,
-        warnings,
+        tuple(warnings),
         machine.bore_radii,
         sourced,
     )
-
-
-def _undriven(scenario: Scenario, says_drive: bool) -> Iterator[str]:
-    """A warning on driven parts that stand still because no drive is given."""
-    still = [name for name in scenario.driven if isinstance(scenario.drive_of(name), Held)]
-    if still and not says_drive and not any(name in scenario.drives for name in still):
-        yield (
-            f"{', '.join(still)}: held, for the scenario has no [drive]; allowed: [drive], [drives.NAME], or "
-            '[drive] type = "Held" for parts that are to stand still'
-        )
 
 
 def _scenario(

@@ -60,7 +60,10 @@ def read_adams_requests(path: Path, asked: Asked) -> SeriesFile:
     place, header = next(((n, found) for n, found in headers if found), (0, None))
     if header is None:
         raise _wrong(f"{path}: line 2 to {HEADER + 1}", "none has the number of requests")
-    units = _units(header[2] or "")
+    system = header[2] or ""
+    letters = {"length": system[:2], "time": system[4:6], "force": system[6:8], "angle": system[8:10]}
+    units = {key: UNITS[key].get(two, "") for key, two in letters.items()}
+    units = units if all(units.values()) else {}  # of a system that is not known
     titles: list[tuple[str, str | None]] = [("time", units.get("time"))]
     for _ in range(int(header[1])):
         found = ENTRY.fullmatch(lines[place]) if place < len(lines) else None
@@ -83,13 +86,6 @@ def read_adams_requests(path: Path, asked: Asked) -> SeriesFile:
 
 def _wrong(where: str, phrase: str) -> InputError:
     return InputError(f"{where}: {phrase}; allowed: the whole of a request file as text")
-
-
-def _units(system: str) -> dict[str, str]:
-    """Units of a system such as MMKGS_N_RACA; none if one of them is not known."""
-    words = {"length": system[:2], "time": system[4:6], "force": system[6:8], "angle": system[8:10]}
-    found = {key: UNITS[key].get(word, "") for key, word in words.items()}
-    return found if all(found.values()) else {}
 
 
 def _rows(path: Path, lines: list[str], place: int, width: int) -> Numbers:

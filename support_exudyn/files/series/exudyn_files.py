@@ -46,7 +46,12 @@ def read_exudyn_text(path: Path, asked: Asked) -> SeriesFile:
     if not any(lines[len(header) :]):
         raise InputError(f"{path}: has no rows; allowed: one or more below its comments")
     sensor = "sensor output file" in header[0].lower()
-    names = _of_sensor(path, "\n".join(header)) if sensor else _of_solution(path, "\n".join(header))
+    if sensor:
+        names = _of_sensor(path, "\n".join(header))
+    elif found := WRITTEN.search("\n".join(header)):
+        names = _coordinates(path, [int(one) for one in found[1].split(",")])
+    else:
+        raise InputError(f"{path}: lacks its line '#number of written coordinates ...'; allowed: with it")
     if not sensor and not any(line.startswith(FINISHED) for line in lines[-HEADER:]):
         notes.append("There is no line '#simulation finished': the run was cut off, or the file was.")
     titles = (("time", "s" if any(OURS in line for line in header) else None), *((one, None) for one in names))
@@ -64,13 +69,6 @@ def _of_sensor(path: Path, header: str) -> list[str]:
     if count == 3 and kind.endswith(VECTORS):
         return [f"{kind}.{axis}" for axis in "xyz"]
     return [kind] if count == 1 else [f"{kind}.{n}" for n in range(count)]
-
-
-def _of_solution(path: Path, header: str) -> list[str]:
-    """The names of a solution's coordinates."""
-    if not (found := WRITTEN.search(header)):
-        raise InputError(f"{path}: lacks its line '#number of written coordinates ...'; allowed: with it")
-    return _coordinates(path, [int(one) for one in found[1].split(",")])
 
 
 def _coordinates(path: Path, counts: Sequence[int]) -> list[str]:

@@ -146,7 +146,10 @@ def _groups(path: Path, tree: Tree, above: tuple[str, ...], times: Column | None
 
 def _of_rate(tree: Tree, rate: float | None) -> list[Group]:
     """Times at a rate [Hz], by default that of a number `fs` or `dt` in the file, with the longest columns."""
-    numbers = {name.casefold(): float(one) for name, one in tree.items() if np.size(one) == 1 and _is_real(one)}
+    real = {
+        name: one for name, one in tree.items() if np.size(one) == 1 and np.asarray(one).dtype.kind in "fiu"
+    }
+    numbers = {name.casefold(): float(one) for name, one in real.items()}
     known = [numbers[name] for name in RATES if name in numbers]
     known += [1.0 / numbers[name] for name in INTERVALS if numbers.get(name)]
     rate = rate or next((one for one in known if one > 0.0), None)
@@ -156,10 +159,6 @@ def _of_rate(tree: Tree, rate: float | None) -> list[Group]:
         return []
     times = Column("time at the rate", "s", np.arange(size) / rate)
     return [(times, [one for one in found if one.values.size == size])]
-
-
-def _is_real(item: Any) -> bool:
-    return np.asarray(item).dtype.kind in "fiu"
 
 
 def _columns(place: tuple[str, ...], values: Numbers) -> list[Column]:

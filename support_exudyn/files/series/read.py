@@ -24,10 +24,6 @@ PLAIN = (read_text_table, read_adams_results)  # which many files seem to be
 NO_UNITS: Mapping[str, str] = {}
 
 
-def _is_text(head: bytes) -> bool:
-    return bool(head.strip()) and (b"\0" not in head or head.startswith(UTF_16))
-
-
 UNPACKED, WORKBOOK = "the file that it holds, unpacked", "the table saved as .xlsx or CSV"
 REFUSED = (  # how files begin that are no tables, what they are, and what to do
     (rb"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1", "an old workbook of Excel (.xls)", WORKBOOK),
@@ -66,7 +62,7 @@ FORMATS = (  # the first that fits is taken
     _Format("JSON file", rb"(\xef\xbb\xbf)?\s*(\{|\[\s*[{\[])", read_typed_table),
     _Format("ADAMS request file (.req)", REQUESTS, read_adams_requests),
     _Format("sensor or solution of Exudyn as text", EXUDYN, read_exudyn_text),
-    _Format("table of text (CSV)", _is_text, read_text_table),
+    _Format("table of text (CSV)", lambda head: b"\0" not in head or head.startswith(UTF_16), read_text_table),
 )
 KNOWN = ", ".join(one.name for one in FORMATS)
 
