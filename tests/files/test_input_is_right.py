@@ -74,8 +74,8 @@ def test_names_that_no_channel_can_have_are_refused(name: str) -> None:
         assert said in str(refused.value)
 
 
-@pytest.mark.parametrize("name", ["Stütze_2", "连杆-1", "κ"])
-def test_names_have_the_letters_of_any_language(name: str, tmp_path: Path) -> None:
+def test_names_have_the_letters_of_any_language(tmp_path: Path) -> None:
+    name = "Stütze_连杆-1"
     moment = AppliedTorque(body="rocker", full_torque=1.0)
     run = simulate(simple_scenario("crank_rocker", duration_s=0.01, loads={name: moment}))
     again = Result.load(run.save(tmp_path / "run.h5"))

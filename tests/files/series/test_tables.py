@@ -124,18 +124,14 @@ def test_a_rate_is_used_where_a_file_has_no_times_that_change(folder: Path) -> N
     [
         (["", "--", "1.#QNAN", "n/a", "#N/A", "-inf"], NAN),
         (["+1500", "1500.", "1.5e3", '"1,500.0"', '" 1500 "', "1.5D3"], 1500.0),
+        *(([number], 1234.5) for number in ("1.234,5", "1 234,5", "1\u00a0234,5", "1'234,5", "1234,5")),
     ],
 )
 def test_cells_are_numbers_or_nothing(folder: Path, cells: list[str], value: float) -> None:
-    rows = "".join(f"{n}.5,{cell}\n" for n, cell in enumerate(["0", *cells]))
-    values = read(folder, f"time_s,x\n{rows}").series["x"].values[1:]
+    separator, decimal = (";", ",") if value == 1234.5 else (",", ".")
+    rows = "".join(f"{n}{decimal}5{separator}{cell}\n" for n, cell in enumerate(["0", *cells]))
+    values = read(folder, f"time_s{separator}x\n{rows}").series["x"].values[1:]
     np.testing.assert_array_equal(values, [value] * len(cells))
-
-
-@pytest.mark.parametrize("number", ["1.234,5", "1 234,5", "1\u00a0234,5", "1'234,5", "1234,5"])
-def test_signs_stand_between_thousands(folder: Path, number: str) -> None:
-    found = read(folder, f"time_s;F_N\n0,0;{number}\n0,5;2,5\n")
-    assert found.series["F"].values.tolist() == [1234.5, 2.5]
 
 
 @pytest.mark.parametrize(
