@@ -15,7 +15,6 @@ from support_exudyn.mechanics.closing import Conditions, repeated_count
 from support_exudyn.mechanics.constraints import matrix
 from support_exudyn.mechanics.kinetics import Matrix
 from support_exudyn.mechanics.observed_run import Trajectory
-from support_exudyn.mechanics.postures import turn
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.scenario.scenario import Scenario
 
@@ -83,11 +82,11 @@ def words(conditions: Conditions, position: Matrix) -> str:
     """That a posture is a change point, with what lies in line and where the driven parts stand."""
     moved = position * conditions.arms
     rows = conditions.rows(moved)
-    why = in_line(conditions, moved, rows)[0] if len(rows) >= rows.shape[1] else ""
+    why = in_line(conditions, moved, rows) if len(rows) >= rows.shape[1] else ""
     linkage, kinetics = conditions.linkage, conditions.kinetics
     stands = []
     for name, crank in linkage.cranks.items():
-        angle = linkage.bodies[crank.body].angle + turn(kinetics, position, crank.body)
+        angle = linkage.bodies[crank.body].angle + float(kinetics.motion(position).turn(crank.body)[0])
         stands.append(f"{name} at {round(math.degrees(angle), 3) % 360.0:g} degrees")
     return "the linkage is at a change point or dead centre" + "".join(
         f" ({said})" for said in (", ".join(stands), why) if said

@@ -173,23 +173,24 @@ def _actuators_in_space(linkage: SpatialLinkage, parts: Parts, loads: Loads) -> 
     yield single
     for whole in dict.fromkeys(actuator.actuator for actuator in linkage.actuators.values()):
         each = linkage.parts_of_actuator(whole)
-        if each != (whole,):
-            pair = _together(whole, each, single, "angle", np.mean, "direction from foot to head, mean of both")
-            pair |= _together(whole, each, single, "length", np.mean, "distance of its ends, mean of both")
-            pair |= _together(whole, each, single, "force", np.sum, f"{APART}, both together")
-            yield _marked(pair, ".force", loads.determine(Distance, each))
+        pair: ChannelDefinitions = {}
+        for what, unite, meaning in _OF_BOTH if each != (whole,) else ():
+            both = [single[f"{part}.{what}"] for part in each]
+            row = (what, both[0].unit, meaning, partial(_united, unite, both))
+            pair |= table(whole, both[0].needs, lambda run: run, [row])
+        yield _marked(pair, ".force", loads.determine(Distance, each))
 
 
-def _together(
-    whole: str, parts: Iterable[str], known: ChannelDefinitions, what: str, unite: Any, meaning: str
-) -> ChannelDefinitions:
+_OF_BOTH: tuple[tuple[str, Any, str], ...] = (
+    ("angle", np.mean, "direction from foot to head, mean of both"),
+    ("length", np.mean, "distance of its ends, mean of both"),
+    ("force", np.sum, f"{APART}, both together"),
+)
+
+
+def _united(unite: Any, parts: Iterable[ChannelDefinition], run: Trajectory) -> Series:
     """A channel of a pair, from those of each."""
-    each = [known[f"{part}.{what}"] for part in parts]
-
-    def united(run: Trajectory) -> Series:
-        return np.asarray(unite([one.values(run) for one in each], axis=0))
-
-    return table(whole, each[0].needs, lambda run: run, [(what, each[0].unit, meaning, united)])
+    return np.asarray(unite([one.values(run) for one in parts], axis=0))
 
 
 # --- joints ---
@@ -221,13 +222,12 @@ def _joints_in_space(
     for pin in dict.fromkeys(b.pin for b in linkage.bearings.values() if not b.is_guide):
         each = tuple(linkage.parts_of_pin(pin))
         if each != (pin,):
-            force = partial(_sum_of_bearings, each)
+
+            def force(run: Trajectory, each: Iterable[str] = each) -> Series:
+                return np.asarray(np.sum([run.pins[part] for part in each], axis=0))
+
             together = force_channels(pin, JOINTS, force, axes=3)
             yield _marked(together, ".force", loads.determine(Shift, each))
-
-
-def _sum_of_bearings(parts: Iterable[str], run: Trajectory) -> Series:
-    return np.asarray(np.sum([run.pins[part] for part in parts], axis=0))
 
 
 def _marked(channels: ChannelDefinitions, what: str, determined: bool) -> ChannelDefinitions:
@@ -255,23 +255,24 @@ def _energy(parts: Parts, axes: int) -> ChannelDefinitions:
     movers = ["the drives" if loaded else "the drive"] + ["pumps"] * pumped + ["what moves loads"] * loaded
     lost = "damping" + " and valves" * pumped
     places = "contacts, oil and loads" if loaded else "contacts and oil"
-    compliant = not all(pin.holds for pin in parts.pins.values()) or bool(parts.guides) or bool(parts.blocks)
-    gives_way = any(isinstance(pin, CompliantPin) for pin in parts.pins.values())
-    stored = DataNeeds.NOTHING
-    for there, part in ((compliant, CONTACT), (bool(parts.oil), OIL), (loaded or gives_way, LOADED)):
-        stored |= part if there else DataNeeds.NOTHING
-    integrals, moving = DataNeeds.INTEGRALS, MOTION if axes == 3 else VELOCITY
+    stored, integrals = DataNeeds.NOTHING, DataNeeds.INTEGRALS
+    if not all(pin.holds for pin in parts.pins.values()) or parts.guides or parts.blocks:
+        stored |= CONTACT
+    if parts.oil:
+        stored |= OIL
+    if loaded or any(isinstance(pin, CompliantPin) for pin in parts.pins.values()):
+        stored |= LOADED
     balance = "gain minus work plus loss; zero if computed exactly"
-    rows: dict[str, tuple[DataNeeds, str, str]] = {
-        "kinetic": (moving, "kinetic energy of all bodies", "kinetic"),
-        "potential": (POSITION, "of weight, zero in the machine's start posture", "potential"),
-        "elastic": (stored, f"stored in {places}", "stored"),
-        "damping_loss": (integrals, f"dissipated by {lost} in {places} so far", "damping_loss"),
-        "friction_loss": (integrals, "dissipated by friction so far", "friction_loss"),
-        "work": (integrals, f"work of {' and of '.join(movers)} so far", "work"),
-        "balance": (MOTION | stored | integrals, balance, "balance"),
-    }
+    rows = (
+        ("kinetic", MOTION if axes == 3 else VELOCITY, "kinetic energy of all bodies", "kinetic"),
+        ("potential", POSITION, "of weight, zero in the machine's start posture", "potential"),
+        ("elastic", stored, f"stored in {places}", "stored"),
+        ("damping_loss", integrals, f"dissipated by {lost} in {places} so far", "damping_loss"),
+        ("friction_loss", integrals, "dissipated by friction so far", "friction_loss"),
+        ("work", integrals, f"work of {' and of '.join(movers)} so far", "work"),
+        ("balance", MOTION | stored | integrals, balance, "balance"),
+    )
     return {
-        f"energy.{name}": ChannelDefinition("J", meaning, needs, attrgetter(what))
-        for name, (needs, meaning, what) in rows.items()
+        f"energy.{name}": ChannelDefinition("J", meaning, needs, attrgetter(field))
+        for name, needs, meaning, field in rows
     }

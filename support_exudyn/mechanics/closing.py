@@ -113,9 +113,8 @@ class Conditions:
     def targets(self, travels: Mapping[str, float], offsets: Mapping[str, Vector2]) -> Matrix:
         """What constraints hold where all is met (m,) [m], [rad], with these travels and offsets."""
         found = self._drawn.copy()
-        for part in DRIVEN:
-            for name in getattr(self.linkage, part):
-                found[self._first_rows[part, name]] += travels.get(name, 0.0)
+        for part, name in self.driven:
+            found[self._first_rows[part, name]] += travels.get(name, 0.0)
         for name, offset in offsets.items():
             row = self._first_rows["pins", name]
             found[row : row + 2] = offset
@@ -130,8 +129,8 @@ class Conditions:
 
         targets: of `targets`; by default with the own travels and offsets.
         """
-        found = self._own_targets if targets is None else targets
-        return np.asarray(self.counts * (found - self.kinetics.values(moved / self.arms)))
+        targets = self._own_targets if targets is None else targets
+        return np.asarray(self.counts * (targets - self.kinetics.values(moved / self.arms)))
 
     def rows(self, moved: Matrix) -> Matrix:
         """Rates of the conditions (m, n), of coordinates counted by `arms`."""

@@ -11,7 +11,7 @@ import numpy as np
 from support_exudyn.mechanics.closing import NONE, Conditions, moved_on, nearest
 from support_exudyn.mechanics.kinetics import Matrix, joints_of, kinetics_of
 from support_exudyn.mechanics.postures import laid_out
-from support_exudyn.model.linkage import Body, Crank, Linkage
+from support_exudyn.model.linkage import Crank, Linkage
 from user_forces.values.value import InputError, Vector2
 
 NUDGE = 0.02  # of the drawing's size
@@ -50,8 +50,7 @@ def assembled(
     Raises InputError that names the joints and driven parts that cannot be met together, a body without a
     joint, or what the drawing leaves open.
     """
-    _check_asked(drawing, angles, lengths, origins)
-    _check_hanging(drawing, held)
+    _check_asked(drawing, angles, lengths, origins, held)
     asked = replace(
         drawing,
         cranks={body: Crank(body=body) for body in angles},
@@ -63,8 +62,44 @@ def assembled(
     }
     travels |= {name: length - drawing.actuators[name].start_length for name, length in lengths.items()}
     conditions = Conditions(asked, travels, origins, dict.fromkeys(drawing.pins, (0.0, 0.0)))
-    found = _posture_of(conditions)
-    return _with_exact_numbers(laid_out(kinetics_of(drawing), found / conditions.arms), angles)
+    closed = laid_out(kinetics_of(drawing), _posture_of(conditions) / conditions.arms)
+    # without the rounding of both points of a pin, and of the angles that are given
+    bodies = {name: replace(one, angle=angles.get(name, one.angle)) for name, one in closed.bodies.items()}
+    pins = {name: replace(pin, second_point=pin.first_point) for name, pin in closed.pins.items()}
+    return replace(closed, bodies=bodies, pins=pins)
+
+
+def _check_asked(
+    drawing: Linkage,
+    angles: Mapping[str, float],
+    lengths: Mapping[str, float],
+    origins: Mapping[str, Vector2],
+    held: Collection[str],
+) -> None:
+    """Raise InputError where what is given is of nothing that is there, or a body has no joint."""
+    for what, asked, known in (
+        ("angle", angles, drawing.bodies),
+        ("length", lengths, drawing.actuators),
+        ("line", origins, drawing.slides),
+    ):
+        for name in asked:
+            if name not in known:
+                raise InputError(f"{what} of {name!r}: no such part; allowed: {', '.join(known) or 'none'}")
+    for name, length in lengths.items():
+        if not length > 0.0:
+            raise InputError(f"length of {name} = {1e3 * length:g} mm: allowed: > 0 mm")
+        if drawing.actuators[name].start_length == 0.0:
+            raise InputError(
+                f"actuators.{name}: its ends lie at one point of the drawing, so it has no direction; allowed: "
+                "ends that lie apart; draw them roughly where they belong"
+            )
+    joined = {name for name, _ in joints_of(drawing)} | {one.body for one in drawing.cranks.values()} | {*held}
+    if loose := [name for name in drawing.bodies if name not in joined]:
+        raise InputError(
+            f"bodies.{', bodies.'.join(loose)}: {'hangs' if len(loose) == 1 else 'hang'} in the air: no pin, "
+            "guide or actuator joins it to another body; allowed: bodies with a joint; add one, or leave the "
+            "body out"
+        )
 
 
 def _posture_of(conditions: Conditions) -> Matrix:
@@ -82,7 +117,15 @@ def _posture_of(conditions: Conditions) -> Matrix:
     if not ways:
         raise InputError(_refusal(conditions))
     if max(np.abs(way - ways[0]).max() for way in ways) > APART * conditions.size:
-        raise InputError(_ambiguous(conditions, ways))
+        turns = np.degrees([way[2::3] / conditions.arms[2::3] for way in ways])
+        most = int(np.argmax(np.ptp(turns, axis=0)))  # the body that differs most
+        name, body = list(conditions.linkage.bodies.items())[most]
+        one, other = (math.degrees(body.angle) + turn for turn in (turns[:, most].min(), turns[:, most].max()))
+        raise InputError(
+            "drawing: it lies in line or in a dead centre and does not say which posture is meant: "
+            f"bodies.{name} could stand at {one:.4g} or at {other:.4g} degrees; draw it a little to the side "
+            "that is meant"
+        )
     return ways[0]
 
 
@@ -103,72 +146,6 @@ def _rank(conditions: Conditions, moved: Matrix) -> int:
     return int(np.linalg.matrix_rank(conditions.rows(moved), tol=SINGULAR))
 
 
-def _check_hanging(linkage: Linkage, held: Collection[str] = ()) -> None:
-    """Raise InputError that names bodies that no pin, guide, actuator or crank joins to anything.
-
-    held: bodies that need no joint.
-    """
-    joined = {name for name, _ in joints_of(linkage)} | {one.body for one in linkage.cranks.values()}
-    loose = [name for name in linkage.bodies if name not in joined and name not in held]
-    if loose:
-        raise InputError(
-            f"bodies.{', bodies.'.join(loose)}: {'hangs' if len(loose) == 1 else 'hang'} in the air: no pin, "
-            "guide or actuator joins it to another body; allowed: bodies with a joint; add one, or leave the "
-            "body out"
-        )
-
-
-def _check_asked(
-    drawing: Linkage,
-    angles: Mapping[str, float],
-    lengths: Mapping[str, float],
-    origins: Mapping[str, Vector2],
-) -> None:
-    """Raise InputError where an angle, a length or a line is of something that is not there."""
-    for what, asked, known in (
-        ("angle", angles, drawing.bodies),
-        ("length", lengths, drawing.actuators),
-        ("line", origins, drawing.slides),
-    ):
-        for name in asked:
-            if name not in known:
-                raise InputError(f"{what} of {name!r}: no such part; allowed: {', '.join(known) or 'none'}")
-    for name, length in lengths.items():
-        if not length > 0.0:
-            raise InputError(f"length of {name} = {1e3 * length:g} mm: allowed: > 0 mm")
-        if drawing.actuators[name].start_length == 0.0:
-            raise InputError(
-                f"actuators.{name}: its ends lie at one point of the drawing, so it has no direction; allowed: "
-                "ends that lie apart; draw them roughly where they belong"
-            )
-
-
-def _ambiguous(conditions: Conditions, ways: list[Matrix]) -> str:
-    """That a drawing leaves open which posture is meant, shown with the body that differs most."""
-    turns = np.array([way[2::3] / conditions.arms[2::3] for way in ways])
-    most = int(np.argmax(np.ptp(turns, axis=0)))
-    name, body = list(conditions.linkage.bodies.items())[most]
-    one, other = (math.degrees(body.angle + turn) for turn in (turns[:, most].min(), turns[:, most].max()))
-    return (
-        "drawing: it lies in line or in a dead centre and does not say which posture is meant: "
-        f"bodies.{name} could stand at {one:.4g} or at {other:.4g} degrees; draw it a little to the side that "
-        "is meant"
-    )
-
-
-def _with_exact_numbers(linkage: Linkage, angles: Mapping[str, float]) -> Linkage:
-    """The linkage with pins' points at one place, and angles as they were asked for."""
-
-    def exact(name: str, body: Body) -> Body:
-        return replace(body, angle=angles.get(name, body.angle))
-
-    return replace(
-        linkage,
-        bodies={name: exact(name, body) for name, body in linkage.bodies.items()},
-        pins={name: replace(pin, second_point=pin.first_point) for name, pin in linkage.pins.items()},
-    )
-
-
 # --- what does not close ---
 
 
@@ -176,10 +153,14 @@ def _refusal(conditions: Conditions) -> str:
     """The message on a drawing that cannot be closed: the fewest parts that cannot be met together."""
     elsewhere = _closest(conditions, TRIES)
     if conditions.closed(elsewhere):
+        turns = np.degrees(elsewhere[2::3] / conditions.arms[2::3]).tolist()
+        angles = ", ".join(
+            f"{name} at {math.degrees(body.angle) + math.remainder(turn, 360.0):.4g} degrees"
+            for (name, body), turn in zip(conditions.linkage.bodies.items(), turns, strict=True)
+        )
         return (
             f"{_asked(conditions) or 'drawing'}: no way leads from the drawing to a closed posture; it closes "
-            f"elsewhere, for instance with {_angles(conditions, elsewhere)}; draw the bodies nearer to the "
-            "posture that is meant"
+            f"elsewhere, for instance with {angles}; draw the bodies nearer to the posture that is meant"
         )
     core = conditions
     for part in conditions.names:
@@ -188,15 +169,17 @@ def _refusal(conditions: Conditions) -> str:
             core = rest
     joints = ", ".join(f"{WORDS[kind]} {name}" for kind, name in core.names if (kind, name) not in core.driven)
     if not core.driven:
-        short = core.short(_closest(core, TRIES))
-        rows = core.kinetics.owners()
-        gaps = [
-            math.hypot(*short[[owner == part for owner in rows]]) for part in core.names if part[0] != "gears"
-        ]
+        short, rows = core.short(_closest(core, TRIES)), core.kinetics.owners()
+        gaps = [math.hypot(*short[[one == part for one in rows]]) for part in core.names if part[0] != "gears"]
+        points: dict[str, list[Vector2]] = {}  # of each body in the chain
+        for body, point in (side for pin in core.linkage.pins.values() for side in pin.sides):
+            points.setdefault(body, []).append(point)
+        sides = {body: 1e3 * math.dist(*ends) for body, ends in points.items() if len(ends) == 2}
+        lengths = ", ".join(f"{body} {length:.4g}" for body, length in sides.items())
         return (
             f"the chain of {joints} does not close: {1e3 * sum(gaps):.3g} mm stay open at best"
-            f"{_lengths(core)}; allowed: lengths that close; change one of them, or where the pins on the "
-            "ground lie"
+            + (f" (between pins: {lengths} mm)" if lengths else "")
+            + "; allowed: lengths that close; change one of them, or where the pins on the ground lie"
         )
     last = core.driven[-1]
     rest = core.of([name for name in core.names if name != last])
@@ -251,23 +234,3 @@ def _value(conditions: Conditions, part: tuple[str, str], moved: Matrix) -> str:
     if kind == "cranks":
         return f"{math.degrees(conditions.linkage.bodies[name].angle + value):.4g} degrees"
     return f"{1e3 * value:.4g} mm"
-
-
-def _angles(conditions: Conditions, moved: Matrix) -> str:
-    """The angles of all bodies in a posture."""
-    turns = np.degrees(moved[2::3] / conditions.arms[2::3]).tolist()
-    return ", ".join(
-        f"{name} at {math.degrees(body.angle) + math.remainder(turn, 360.0):.4g} degrees"
-        for (name, body), turn in zip(conditions.linkage.bodies.items(), turns, strict=True)
-    )
-
-
-def _lengths(conditions: Conditions) -> str:
-    """Distances of the pins of each body that has two of them [mm], in words."""
-    points: dict[str, list[Vector2]] = {}
-    for pin in conditions.linkage.pins.values():
-        points.setdefault(pin.first, []).append(pin.first_point)
-        points.setdefault(pin.second, []).append(pin.second_point)
-    sides = {body: 1e3 * math.dist(*found) for body, found in points.items() if len(found) == 2}
-    said = ", ".join(f"{body} {length:.4g}" for body, length in sides.items())
-    return f" (between pins: {said} mm)" if said else ""

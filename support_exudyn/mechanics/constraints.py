@@ -20,7 +20,7 @@ import numpy as np
 
 from support_exudyn.mechanics.body_motion import BodyMotion, Motion, cross
 from support_exudyn.mechanics.trajectory import Series
-from support_exudyn.model.linkage import GROUND, Gear, LinearActuator, Linkage, PinPlace, Slide
+from support_exudyn.model.linkage import GROUND, LinearActuator, Linkage, PinPlace
 from support_exudyn.model.plane_geometry import rotated
 from support_exudyn.model.spatial_linkage import Bearing, SpatialActuator, SpatialLinkage
 from user_forces.values.value import Vector3
@@ -159,12 +159,6 @@ class ConstraintRows:
         return found
 
 
-def direction(motion: Motion, actuator: LinearActuator | SpatialActuator) -> Series:
-    """The unit vector from foot to head of an actuator (n, d)."""
-    span = motion.span(actuator)
-    return np.asarray(span / np.linalg.norm(span, axis=1)[:, None])
-
-
 def matrix(motion: Motion, held: Sequence[Constraint]) -> Series:
     """C: the rows of all that is held at every instant, (n, rows, freedoms)."""
     return ConstraintRows(motion.linkage, held).matrix(motion)
@@ -221,38 +215,27 @@ def constraints_of(
     ideal, rigid: names of the pins that are closed, and of the actuators that are rigid; all by default.
     """
     pins, actuators = linkage.pins if ideal is None else ideal, linkage.actuators if rigid is None else rigid
-    found = [row for name in pins for row in pin(name, linkage.pins[name])]
+    found: list[Constraint] = [row for name in pins for row in pin(name, linkage.pins[name])]
     found += [_actuator(name, linkage.actuators[name]) for name in actuators]
     found += [Turn("cranks", name, "turn", ((one.body, 1.0),)) for name, one in linkage.cranks.items()]
-    found += [row for name, one in linkage.slides.items() for row in _guide(name, one)]
-    return found + [_gear(name, one) for name, one in linkage.gears.items()]
+    for name, slide in linkage.slides.items():
+        ends = slide.against, slide.point, slide.body, slide.point
+        across = rotated((0.0, 1.0), slide.direction)
+        found.append(Shift("slides", name, "across_1", *ends, direction=across, carrier=slide.against))
+        if not slide.turns:
+            found.append(Turn("slides", name, "turn", ((slide.body, 1.0), (slide.against, -1.0))))
+    for name, gear in linkage.gears.items():
+        carrier = gear.carrier or GROUND
+        shares = (gear.second, 1.0), (gear.first, -gear.ratio), (carrier, gear.ratio - 1.0)
+        found.append(Turn("gears", name, "turn", shares))
+    return found
 
 
 def pin(name: str, place: PinPlace) -> list[Constraint]:
     """A pin of the plane: its centre on the second body against that on the first, forward and up."""
     ends = place.first, place.first_point, place.second, place.second_point
-    return [
-        Shift("pins", name, "across_1", *ends, direction=(1.0, 0.0), carrier=GROUND),
-        Shift("pins", name, "across_2", *ends, direction=(0.0, 1.0), carrier=GROUND),
-    ]
-
-
-def _guide(name: str, slide: Slide) -> list[Constraint]:
-    """A guide: distance of its point from the line, which may turn, and the angle of a block."""
-    ends = slide.against, slide.point, slide.body, slide.point
-    across = rotated((0.0, 1.0), slide.direction)
-    rows: list[Constraint] = [
-        Shift("slides", name, "across_1", *ends, direction=across, carrier=slide.against),
-        Turn("slides", name, "turn", ((slide.body, 1.0), (slide.against, -1.0))),
-    ]
-    return rows[: slide.conditions]
-
-
-def _gear(name: str, gear: Gear) -> Constraint:
-    """A gear: the turn of its second wheel less the ratio of that of the first, both against the carrier."""
-    carrier = gear.carrier or GROUND
-    shares = (gear.second, 1.0), (gear.first, -gear.ratio), (carrier, gear.ratio - 1.0)
-    return Turn("gears", name, "turn", shares)
+    ways: tuple[tuple[Kind, tuple[float, float]], ...] = (("across_1", (1.0, 0.0)), ("across_2", (0.0, 1.0)))
+    return [Shift("pins", name, kind, *ends, direction=way, carrier=GROUND) for kind, way in ways]
 
 
 # --- in space ---

@@ -12,9 +12,9 @@ along the normals of its corners.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -33,6 +33,7 @@ from user_forces.contact_state import PinMemory
 from user_forces.normal.law import NormalLaw
 from user_forces.values.value import Vector2
 
+AnyJoint = TypeVar("AnyJoint", ClearancePin, ClearanceGuide)
 PLANE = np.eye(2)
 PLAY = 1e-3  # [m] of a falling block, as of a pin
 
@@ -84,10 +85,13 @@ def journal_arm(contact: Contact, depth: Series) -> Series:
     return np.array([contact.bearing.contact_arms(d)[1] for d in depth.tolist()])
 
 
-def contact_rate(motion: Motion, place: Any, axes: Matrix) -> Matrix:
-    """The matrix of the eccentricity's rate, or of slip and depth in a slot, see `ContactPlace.rate`.
+def contact_rate(motion: Motion, place: Any, axes: Matrix = PLANE) -> Matrix:
+    """The matrix of the eccentricity's rate, or of slip and depth in a slot (2, freedoms).
 
-    place: a `ContactPlace`, or a section of a bearing in space, which has the same contact, bodies and points.
+    Arguments:
+        motion: of one instant.
+        place: a `ContactPlace`, or a section of a bearing in space, which has the same contact, bodies, points.
+        axes: along what, two directions of the start posture that turn with the bore, in columns.
     """
     ends = place.bore, place.bore_point, place.journal, place.journal_point
     directions = [tuple(axis[: motion.SHIFTS].tolist()) for axis in axes.T[:2]]
@@ -139,43 +143,25 @@ class ContactPlace:
             return self.direction
         return 0.0 if self.bore == GROUND else linkage.bodies[self.bore].angle
 
-    def rate(self, motion: Motion, axes: Matrix = PLANE) -> Matrix:
-        """The matrix of the eccentricity's rate, or of slip and depth in a slot (2, freedoms).
-
-        motion: of one instant. axes: along what, two directions of the start posture that turn with the bore,
-        in columns.
-        """
-        return contact_rate(motion, self, axes)
-
     def series(self, motion: Motion, memories: Series | Sequence[PinMemory]) -> ContactSeries:
         """The contact at every record in the ground's axes, with the memory that it has there."""
         bore, journal = motion.point(self.bore, self.bore_point), motion.point(self.journal, self.journal_point)
         apart, rate = journal.position - bore.position, journal.velocity - bore.velocity
         if not self.in_slot:
-            (x, y), (vx, vy) = apart.T, rate.T
-            moving = RelativeMotion(x, y, vx, vy, bore.spin, journal.spin)
-            return series(self.contact, moving, memories)
-        along, across = (motion.carried(self.bore, one) for one in self._directions(motion.SHIFTS))
+            return series(self.contact, RelativeMotion(*apart.T, *rate.T, bore.spin, journal.spin), memories)
+        c, s = math.cos(self.direction), math.sin(self.direction)
+        axes = (c, s, 0.0)[: motion.SHIFTS], (-s, c, 0.0)[: motion.SHIFTS]
+        along, across = (motion.carried(self.bore, axis) for axis in axes)
         x, y = _dot(apart, along), _dot(apart, across)
         # in space only blocks have such a contact, which do not turn
         spins = [one.spin if motion.SHIFTS == 2 else one.spin[:, 2] for one in (bore, journal)]
         rise = _dot(rate, across) - spins[0] * x
-        found = series(
-            self.contact, RelativeMotion(np.zeros_like(x), y, _dot(rate, along), rise, *spins), memories
-        )
+        moving = RelativeMotion(np.zeros_like(x), y, _dot(rate, along), rise, *spins)
+        found = series(self.contact, moving, memories)
         force = found.force_x[:, None] * along + found.force_y[:, None] * across
-        return replace(
-            found,
-            force_x=force[:, 0],
-            force_y=force[:, 1],
-            eccentricity_x=y * across[:, 0],
-            eccentricity_y=y * across[:, 1],
-        )
-
-    def _directions(self, dimensions: int) -> list[tuple[float, ...]]:
-        """Along a slot and across it, start posture."""
-        c, s = math.cos(self.direction), math.sin(self.direction)
-        return [(c, s, 0.0)[:dimensions], (-s, c, 0.0)[:dimensions]]
+        ways = {"force_x": force[:, 0], "force_y": force[:, 1]}
+        ways |= {"eccentricity_x": y * across[:, 0], "eccentricity_y": y * across[:, 1]}
+        return replace(found, **ways)
 
     def in_space(self, lateral: float) -> ContactPlace:
         """Return the same contact place at a lateral distance [m] from the middle plane."""
@@ -218,9 +204,8 @@ def contact_places(
     """All places by name: of pins, then of guides, as "guide.upper_left"."""
     found: dict[str, ContactPlace] = {}
     for name, pin in pins.items():
-        place = linkage.pins[name]
-        ends = [(place.first, place.first_point), (place.second, place.second_point)]
-        (bore, bore_point), (journal, point) = ends if pin.bore == "first" else ends[::-1]
+        sides = linkage.pins[name].sides
+        (bore, bore_point), (journal, point) = sides if pin.bore == "first" else sides[::-1]
         found[name] = ContactPlace(
             of=f"pins.{name}",
             stem=f"pin.{name}",
@@ -285,26 +270,24 @@ def lacks_mass(law: NormalLaw) -> bool:
     return getattr(law, "mass", 0.0) is None
 
 
-def with_mass(pin: ClearancePin, name: str, linkage: Linkage, free: Kinetics) -> ClearancePin:
-    """The pin with a mass in its law; linkage: in the start posture. free: with all clearance joints open."""
-    law: Any = pin.contact.normal
-    places = contact_places(linkage, {name: pin}, {})
-    return replace(pin, contact=replace(pin.contact, normal=replace(law, mass=_mass(places.values(), free))))
+def with_mass(joint: AnyJoint, name: str, linkage: Linkage, free: Kinetics) -> AnyJoint:
+    """A pin or guide with a mass in its law.
 
-
-def guide_with_mass(guide: ClearanceGuide, name: str, linkage: Linkage, free: Kinetics) -> ClearanceGuide:
-    """The guide with a mass in its law, see `with_mass`."""
-    law: Any = guide.normal
-    guides: Mapping[str, Guide] = {name: guide}
-    return replace(guide, normal=replace(law, mass=_mass(contact_places(linkage, {}, guides).values(), free)))
-
-
-def _mass(places: Iterable[ContactPlace], free: Kinetics) -> float:
-    """The harmonic mean of the effective masses at places of contact in the start posture [kg]."""
-    still, found = np.zeros(3 * len(free.linkage.bodies)), []
-    for place in places:
-        inverse = free.inverse_mass(still, place.rate(free.motion(still)))
+    The harmonic mean of the effective masses at its places of contact in the start posture. linkage: in that
+    posture. free: with all clearance joints open.
+    """
+    is_pin = isinstance(joint, ClearancePin)
+    law: Any = joint.contact.normal if isinstance(joint, ClearancePin) else joint.normal
+    places = (
+        contact_places(linkage, {name: joint}, {}) if is_pin else contact_places(linkage, {}, {name: joint})
+    )
+    still, inverses = np.zeros(3 * len(free.linkage.bodies)), []
+    for place in places.values():
+        inverse = free.inverse_mass(still, contact_rate(free.motion(still), place))
         along = place.axes(free.linkage)
         normal = np.array([-np.sin(along), np.cos(along)])
-        found.append(normal @ inverse @ normal if place.contact.bearing.is_slot else 0.5 * np.trace(inverse))
-    return 1.0 / float(np.mean(found))
+        inverses.append(normal @ inverse @ normal if place.in_slot else 0.5 * np.trace(inverse))
+    law = replace(law, mass=1.0 / float(np.mean(inverses)))
+    if isinstance(joint, ClearancePin):
+        return replace(joint, contact=replace(joint.contact, normal=law))
+    return replace(joint, normal=law)

@@ -9,7 +9,6 @@ from itertools import pairwise, takewhile
 import numpy as np
 
 from support_exudyn.mechanics.closing import Conditions, moved_on
-from support_exudyn.mechanics.kinetics import Matrix
 from support_exudyn.model.drives.drive import Drive
 from support_exudyn.model.linkage import Linkage
 from user_forces.values.value import InputError
@@ -81,18 +80,12 @@ def _alike(conditions: Conditions, names: Sequence[str], drive: Drive, duration:
                 limit = reached + share * (following - reached)
                 when = _reached(drive, limit, duration)
                 raise InputError(_message(names, dict.fromkeys(names, limit), conditions.linkage, when))
-            reached = following
-            if crank and _has_come_back(conditions, moved):
+            reached, back = following, moved.copy()
+            back[2::3] = np.mod(back[2::3] / conditions.arms[2::3] + math.pi, TURN) - math.pi
+            if crank and np.abs(back).max() < SAME * conditions.size:  # all bodies lie as at the start
                 return
             if reached == goal:
                 break
-
-
-def _has_come_back(conditions: Conditions, moved: Matrix) -> bool:
-    """Whether all bodies lie as at the start, turned by whole revolutions or not at all."""
-    off = moved.copy()
-    off[2::3] = np.mod(off[2::3] / conditions.arms[2::3] + math.pi, TURN) - math.pi
-    return bool(np.abs(off).max() < SAME * conditions.size)
 
 
 def _reached(drive: Drive, limit: float, duration: float) -> float:

@@ -38,9 +38,8 @@ class PreloadedLeg:
         if no pressures can carry the load.
         """
         model = self.model
-        tank, rod_area = model.sources["tank"], 0.0
-        if isinstance(model, HydraulicCylinder):
-            rod_area = model.rod_side_area
+        tank = model.sources["tank"]
+        rod_area = model.rod_side_area if isinstance(model, HydraulicCylinder) else 0.0
         piston, rod = model.setting_pressure or 0.0, tank
         if model.setting_pressure is None:
             piston = (self.load + tank * rod_area) / model.bore_area
@@ -55,32 +54,21 @@ class PreloadedLeg:
         for name, path in model.paths.items():
             if name in model.rooms:
                 found[name] = known[path.after if path.before == name else path.before]
-        self._check_boiling(found)
-        self._check_air(piston)
-        return found
-
-    def _check_boiling(self, pressures: Mapping[str, float]) -> None:
-        """Raise InputError if oil would boil at the start."""
-        lowest, least = self.model.vapour_pressure, min(pressures, key=lambda name: pressures[name])
-        if lowest is not None and pressures[least] < lowest:
+        lowest, air, least = model.vapour_pressure, model.trapped_air, min(found, key=found.__getitem__)
+        if lowest is not None and found[least] < lowest:  # oil would boil
             raise InputError(
                 f"actuators.{self.name}.vapour_pressure = {lowest} Pa: in the start posture the leg pushes "
                 f"with {self.load:.4g} N, for which its {SIDES.get(least, least)} would have "
-                f"{pressures[least]:.4g} Pa; allowed: less than that, or a setting_pressure with a load that "
+                f"{found[least]:.4g} Pa; allowed: less than that, or a setting_pressure with a load that "
                 "balances it"
             )
-
-    def _check_air(self, pressure: float) -> None:
-        """Raise InputError if the trapped air would fill the chamber at the start, or more."""
-        air, model = self.model.trapped_air, self.model
-        if air is None:
-            return
         room = model.rooms["piston"].volume
-        if pressure <= -ATMOSPHERE or not air.at(pressure) < room:
+        if air is not None and (piston <= -ATMOSPHERE or not air.at(piston) < room):
             raise InputError(
-                f"actuators.{self.name}.trapped_air.volume = {air.volume} m^3: at the {pressure:.4g} Pa of the "
+                f"actuators.{self.name}.trapped_air.volume = {air.volume} m^3: at the {piston:.4g} Pa of the "
                 f"start no room for oil is left in {room:.4g} m^3; allowed: less air, or a leg that is pressed"
             )
+        return found
 
 
 def static_loads(linkage: Linkage, gravity: Vector2) -> dict[str, float]:

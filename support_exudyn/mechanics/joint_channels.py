@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import partial, singledispatch
-from operator import attrgetter
+from operator import attrgetter, itemgetter
 from typing import Any
 
 import numpy as np
@@ -89,17 +89,18 @@ def _of_clearance_pin(pin: ClearancePin, name: str) -> ChannelDefinitions:
     return found
 
 
-def _of(what: str, unite: Callable[..., Any]) -> Callable[[Sections], Series]:
-    """A number of all sections together."""
-    return lambda sections: np.asarray(unite([getattr(one, what) for one in sections], axis=0))
+def _of(what: str, unite: Callable[[Series], Series]) -> Callable[[Sections], Series]:
+    """A number (n,) of all sections together, from those of each (sections, n)."""
+    return lambda sections: np.asarray(unite(np.array([getattr(one, what) for one in sections])))
 
 
-def _middle(what: str) -> Callable[[Sections], Series]:
+_SUM, _LARGEST, _MEAN = (partial(unite, axis=0) for unite in (np.sum, np.max, np.mean))
+_STATE: Row = ("deflection", "m", "state of the friction law", _of("deflection", _SUM))
+
+
+def _middle(sections: Series) -> Series:
     """The journal is straight: its middle is between its edges."""
-    return lambda sections: 0.5 * (getattr(sections[0], what) + getattr(sections[-1], what))
-
-
-_STATE: Row = ("deflection", "m", "state of the friction law", _of("deflection", np.sum))
+    return np.asarray(0.5 * (sections[0] + sections[-1]))
 
 
 def clearance_channels(name: str, *, in_space: bool = False) -> ChannelDefinitions:
@@ -109,26 +110,23 @@ def clearance_channels(name: str, *, in_space: bool = False) -> ChannelDefinitio
     friction = f"on the journal, along t (n turned by +90 degrees){every}"
     centre = "journal's centre from the bore's"
     rows: list[Row] = [
-        ("normal_force", "N", f"normal contact force{every}", _of("normal_force", np.sum)),
-        ("friction_force", "N", friction, _of("friction_force", np.sum)),
-        ("depth", "m", f"depth{largest}; negative: gap", _of("depth", np.max)),
-        ("slip", "m/s", f"slip of the journal's surface, along t{mean}", _of("slip", np.mean)),
-        ("impact_velocity", "m/s", f"{IMPACT}{largest}; 0 during separation", _of("impact_velocity", np.max)),
-        ("eccentricity_x", "m", f"{centre}, {x}", _middle("eccentricity_x")),
-        ("eccentricity_y", "m", f"{centre}, {y}", _middle("eccentricity_y")),
+        ("normal_force", "N", f"normal contact force{every}", _of("normal_force", _SUM)),
+        ("friction_force", "N", friction, _of("friction_force", _SUM)),
+        ("depth", "m", f"depth{largest}; negative: gap", _of("depth", _LARGEST)),
+        ("slip", "m/s", f"slip of the journal's surface, along t{mean}", _of("slip", _MEAN)),
+        ("impact_velocity", "m/s", f"{IMPACT}{largest}; 0 during separation", _of("impact_velocity", _LARGEST)),
+        ("eccentricity_x", "m", f"{centre}, {x}", _of("eccentricity_x", _middle)),
+        ("eccentricity_y", "m", f"{centre}, {y}", _of("eccentricity_y", _middle)),
     ]
     for place, edge in ((0, "left"), (-1, "right")) if in_space else ():
+        here = itemgetter(place)
+        where = f"{centre} at the {edge} edge"
         rows += [
-            (f"{edge}_depth", "m", f"depth at the {edge} edge; negative: gap", _at("depth", place)),
-            (f"{edge}_eccentricity_x", "m", f"{centre} at the {edge} edge, {x}", _at("eccentricity_x", place)),
-            (f"{edge}_eccentricity_y", "m", f"{centre} at the {edge} edge, {y}", _at("eccentricity_y", place)),
+            (f"{edge}_depth", "m", f"depth at the {edge} edge; negative: gap", _of("depth", here)),
+            (f"{edge}_eccentricity_x", "m", f"{where}, {x}", _of("eccentricity_x", here)),
+            (f"{edge}_eccentricity_y", "m", f"{where}, {y}", _of("eccentricity_y", here)),
         ]
     return table(f"pin.{name}", CONTACT, named("sections", name), rows)
-
-
-def _at(what: str, place: int) -> Callable[[Sections], Series]:
-    """A number of the section at a place."""
-    return lambda sections: np.asarray(getattr(sections[place], what))
 
 
 def bearing_channels(name: str, *, with_clearance: bool, is_guide: bool) -> ChannelDefinitions:
@@ -184,60 +182,51 @@ def _of_ideal_guide(guide: IdealGuide, name: str, slide: Slide) -> ChannelDefini
 class _Block:
     """What a guide with clearance does at the records: its corners, in the axes of the guide."""
 
-    def __init__(self, guide: ClearanceGuide, name: str, slide: Slide, run: Any) -> None:
-        motion = run.motion
+    def __init__(self, guide: ClearanceGuide, name: str, slide: Slide, run: Trajectory) -> None:
+        motion, parts = run.motion, guide.contacts()
         angle = slide.direction + motion.turn(slide.against)
-        along, across = np.cos(angle), np.sin(angle)
-        middle = motion.place(slide.body, slide.point)
-        origin = motion.place(slide.against, slide.point)
-        parts = guide.contacts()
-        self.tilt = motion.turn(slide.body) - motion.turn(slide.against)
+        cos, sin = np.cos(angle), np.sin(angle)
+
+        def along_and_across(x: Series, y: Series) -> Series:
+            return np.array([cos * x + sin * y, cos * y - sin * x])
+
         contacts = [run.sections[f"{name}.{part}"][0] for part in parts]
-        self.force = np.array([along * one.force_y - across * one.force_x for one in contacts])
-        self.friction = np.array([along * one.force_x + across * one.force_y for one in contacts])
-        self.normal = np.array([one.normal_force for one in contacts])
-        upper, lower, arms = [], [], []
-        for part in parts.values():
-            place = motion.place(slide.body, plus(slide.point, rotated(part.point, slide.direction)))
-            x, y = (place - origin).T
-            height = along * y - across * x - part.middle  # from the middle line
-            slot, radius = part.contact.bearing, part.contact.bearing.contact_arms(0.0)[1]
-            upper.append(slot.clearance - height)
-            lower.append(slot.clearance + height)
-            x, y = (place - middle).T
-            arms.append((along * x + across * y, along * y - across * x + np.sign(height) * radius))
-        self.upper, self.lower = np.min(upper, axis=0), np.min(lower, axis=0)
-        self.x, self.y = np.moveaxis(np.array(arms), 1, 0)
-
-    @property
-    def moment(self) -> Series:
-        """Of the forces on the block about the guide's point (n,) [N m]."""
-        return np.asarray((self.x * self.force - self.y * self.friction).sum(axis=0))
-
-    @property
-    def place(self) -> Series:
-        """Where along the block the walls press on it, from the guide's point; 0 apart (n,) [m]."""
-        pressed = self.normal.sum(axis=0)
-        return np.asarray((self.x * self.normal).sum(axis=0) / np.maximum(pressed, NO_FORCE))
+        forces = [along_and_across(one.force_x, one.force_y) for one in contacts]
+        middle, origin = (motion.place(*side) for side in slide.sides)
+        arms, gaps = [], []
+        for point, height, contact in parts.values():
+            place = motion.place(slide.body, plus(slide.point, rotated(point, slide.direction)))
+            off = along_and_across(*(place - origin).T)[1] - height  # from the middle line
+            slot, radius = contact.bearing, contact.bearing.contact_arms(0.0)[1]
+            gaps.append([slot.clearance - off, slot.clearance + off])
+            x, y = along_and_across(*(place - middle).T)
+            arms.append((x, y + np.sign(off) * radius))
+        self.upper, self.lower = np.min(gaps, axis=0)
+        self.tilt = motion.turn(slide.body) - motion.turn(slide.against)
+        (rub, push), (x, y) = (np.moveaxis(np.array(one), 1, 0) for one in (forces, arms))
+        normal = np.array([one.normal_force for one in contacts])
+        self.force, self.friction = push.sum(axis=0), rub.sum(axis=0)
+        self.moment = (x * push - y * rub).sum(axis=0)
+        self.place = (x * normal).sum(axis=0) / np.maximum(normal.sum(axis=0), NO_FORCE)
 
 
 _PLACE = "where the walls press, along the guide from its point on the body; 0 during separation"
 _BLOCK_ROWS: tuple[Row, ...] = (
-    ("gap_upper", "m", "least distance from the upper wall; negative: depth", lambda b: b.upper),
-    ("gap_lower", "m", "least distance from the lower wall; negative: depth", lambda b: b.lower),
-    ("tilt", "rad", "angle against the guide, 0 at the start", lambda b: b.tilt),
-    ("force", "N", "of the guide on the body, across, to the upper side", lambda b: b.force.sum(axis=0)),
-    ("friction_force", "N", "of the guide on the body, along its direction", lambda b: b.friction.sum(axis=0)),
-    ("moment", "N m", "of the guide on the body, about the guide's point", lambda b: b.moment),
-    ("place", "m", _PLACE, lambda b: b.place),
+    ("gap_upper", "m", "least distance from the upper wall; negative: depth", attrgetter("upper")),
+    ("gap_lower", "m", "least distance from the lower wall; negative: depth", attrgetter("lower")),
+    ("tilt", "rad", "angle against the guide, 0 at the start", attrgetter("tilt")),
+    ("force", "N", "of the guide on the body, across, to the upper side", attrgetter("force")),
+    ("friction_force", "N", "of the guide on the body, along its direction", attrgetter("friction")),
+    ("moment", "N m", "of the guide on the body, about the guide's point", attrgetter("moment")),
+    ("place", "m", _PLACE, attrgetter("place")),
 )
 _CORNER_FRICTION = "on the body, along t (to the left at the upper wall, to the right at the lower)"
 _CORNER_ROWS: tuple[Row, ...] = (
     ("gap", "m", "distance from the nearer wall; negative: depth", lambda sections: -sections[0].depth),
-    ("normal_force", "N", "normal contact force", _of("normal_force", np.sum)),
-    ("friction_force", "N", _CORNER_FRICTION, _of("friction_force", np.sum)),
-    ("slip", "m/s", "slip of the body's surface, along t", _of("slip", np.sum)),
-    ("impact_velocity", "m/s", f"{IMPACT}; 0 during separation", _of("impact_velocity", np.sum)),
+    ("normal_force", "N", "normal contact force", _of("normal_force", _SUM)),
+    ("friction_force", "N", _CORNER_FRICTION, _of("friction_force", _SUM)),
+    ("slip", "m/s", "slip of the body's surface, along t", _of("slip", _SUM)),
+    ("impact_velocity", "m/s", f"{IMPACT}; 0 during separation", _of("impact_velocity", _SUM)),
 )
 
 

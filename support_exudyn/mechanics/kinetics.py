@@ -14,7 +14,6 @@ import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -62,21 +61,17 @@ class Kinetics:
     constraints: Sequence[Constraint]
     actuators: Sequence[str]
 
-    @cached_property
-    def _columns(self) -> dict[str, int]:
-        return {name: 3 * n for n, name in enumerate(self.linkage.bodies)}
-
     def first(self, body: str) -> int:
         """Column of a body's x; y and turn follow."""
-        return self._columns[body]
+        return self._still.first(body)
+
+    @cached_property
+    def _still(self) -> BodyMotion:
+        return self.motion(np.zeros(3 * len(self.linkage.bodies)))
 
     def motion(self, position: Matrix) -> BodyMotion:
         """All bodies at rest at a position (n,)."""
         return BodyMotion(self.linkage, position[None], np.zeros((1, position.size)))
-
-    def instant(self, position: Matrix) -> Instant:
-        """Masses and constraints at a position (n,)."""
-        return Instant(self.motion(position), self.constraints, self.size, self._rows)
 
     @cached_property
     def _rows(self) -> ConstraintRows:
@@ -92,7 +87,7 @@ class Kinetics:
     @cached_property
     def counts(self) -> Matrix:
         """Factor of each row (m,) [m]: angles count by the size of the linkage, and moments by one over it."""
-        return np.array([self.size if constraint.kind == "turn" else 1.0 for constraint in self.constraints])
+        return counts_of(self.constraints, self.size)
 
     @cached_property
     def stand_in(self) -> Matrix:
@@ -107,15 +102,15 @@ class Kinetics:
 
     def mass(self) -> Matrix:
         """Diagonal of the mass matrix, shape (n,)."""
-        return np.ravel([(body.mass, body.mass, body.inertia) for body in self.linkage.bodies.values()])
+        return masses_of(self.linkage)
 
     def weight(self, gravity: Vector2) -> Matrix:
         """Forces of gravity [m/s^2] on all coordinates [N], shape (n,)."""
-        return np.asarray(self.mass() * np.tile([*gravity, 0.0], len(self.linkage.bodies)))
+        return np.asarray(weight_of(self._still, gravity)[0])
 
     def rows(self, position: Matrix) -> Matrix:
         """Jacobian C, (m, n), see `constraints_of`."""
-        return self.instant(position).rows
+        return np.asarray(self._rows.matrix(self.motion(position))[0])
 
     def values(self, position: Matrix) -> Matrix:
         """What the constraints hold, (m,): lengths [m] and turns [rad]."""
@@ -126,7 +121,7 @@ class Kinetics:
         return [(constraint.part, constraint.name) for constraint in self.constraints]
 
     def turning(self, size: int, body: str) -> Matrix:
-        """The row that gives a body's angular velocity; that of the ground is none."""
+        """The row (size,) that gives a body's angular velocity; that of the ground is none."""
         row = np.zeros(size)
         if body != GROUND:
             row[self.first(body) + 2] = 1.0
@@ -143,28 +138,21 @@ class Kinetics:
 
     def point(self, position: Matrix, body: str, point: Vector2) -> tuple[Matrix, Matrix]:
         """Place of a point of a body (2,) and the matrix that turns all velocities into its own (2, n)."""
-        rate = np.zeros((2, position.size))
-        if body == GROUND:
-            return np.array(point), rate
-        motion, i = self.motion(position), self.first(body)
-        x, y = motion.arm(body, point)[0]
-        rate[0, i : i + 3] = 1.0, 0.0, -y
-        rate[1, i : i + 3] = 0.0, 1.0, x
+        motion, rate = self.motion(position), np.zeros((2, position.size))
+        if body != GROUND:
+            i, (x, y) = self.first(body), motion.arm(body, point)[0]
+            rate[:, i : i + 3] = (1.0, 0.0, -y), (0.0, 1.0, x)
         return motion.place(body, point)[0], rate
 
     def relative(self, position: Matrix, place: PinPlace) -> tuple[Matrix, Matrix]:
         """Centre of a pin on its second body minus that on its first (2,), and its rate's matrix (2, n)."""
         motion = self.motion(position)
-        apart = motion.place(place.second, place.second_point) - motion.place(place.first, place.first_point)
-        return apart[0], matrix(motion, pin("", place))[0]
+        first, second = (motion.place(*side) for side in place.sides)
+        return (second - first)[0], matrix(motion, pin("", place))[0]
 
     def respond(self, position: Matrix, impulse: Matrix, jump: Matrix | float) -> tuple[Matrix, Matrix]:
-        """Change of velocities dv (n,) and impulses L (m,) under impulses b (n,) and a jump c (m,).
-
-        Where rows repeat others, L is the least of all that fit, in the sense of `counts`. Of several impulses
-        at once, b (n, k) with c a number: (n, k) and (m, k).
-        """
-        return self.instant(position).respond(impulse, jump)
+        """Change of velocities (n,) and impulses (m,) at a position (n,), see `Instant.respond`."""
+        return self._instant(position).respond(impulse, jump)
 
     def inverse_mass(self, position: Matrix, rate: Matrix) -> Matrix:
         """Answer of rates to impulses in them, J dv per impulse (k, k) [1/kg], J the rows of the rates (k, n).
@@ -173,7 +161,10 @@ class Kinetics:
 
         Of a clearance pin's eccentricity the inverse of n J dv n is the mass that an impact along n moves.
         """
-        return self.instant(position).answers(rate)
+        return self._instant(position).answers(rate)
+
+    def _instant(self, position: Matrix) -> Instant:
+        return Instant(self.motion(position), self.constraints, self.size, self._rows)
 
 
 @dataclass(frozen=True)
@@ -198,11 +189,13 @@ class Instant:
     @cached_property
     def mass(self) -> Matrix:
         """M, (n, n)."""
-        bodies = list(self.motion.linkage.bodies.values())
+        linkage = self.motion.linkage
         if not isinstance(self.motion, SpatialMotion):
-            return np.diag(np.ravel([(body.mass, body.mass, body.inertia) for body in bodies]))
-        found = np.zeros((6 * len(bodies), 6 * len(bodies)))
-        for n, (body, inertia) in enumerate(zip(bodies, inertias(self.motion)[0], strict=True)):
+            return np.diag(masses_of(linkage))
+        found = np.zeros((6 * len(linkage.bodies), 6 * len(linkage.bodies)))
+        for n, (body, inertia) in enumerate(
+            zip(linkage.bodies.values(), inertias(self.motion)[0], strict=True)
+        ):
             found[6 * n : 6 * n + 3, 6 * n : 6 * n + 3] = body.mass * np.eye(3)
             found[6 * n + 3 : 6 * n + 6, 6 * n + 3 : 6 * n + 6] = inertia
         return found
@@ -210,8 +203,8 @@ class Instant:
     def respond(self, impulse: Matrix, jump: Matrix | float) -> tuple[Matrix, Matrix]:
         """Change of velocities dv (n,) and impulses L (m,) under impulses b (n,) and a jump c (m,).
 
-        Where rows repeat others, L is the least of all that fit. Of several impulses at once, b (n, k) with c a
-        number: (n, k) and (m, k). At a dead centre dv and L are the least that fit.
+        Where rows repeat others, L is the least of all that fit, turns counted by the size. Of several impulses
+        at once, b (n, k) with c a number: (n, k) and (m, k). At a dead centre dv and L are the least that fit.
         """
         shares = self._cancelling()
         size, count, border = len(self.mass), len(self.rows), shares.shape[1]
@@ -231,15 +224,15 @@ class Instant:
 
     def _cancelling(self) -> Matrix:
         """Shares (m, r) with which impulses of rows cancel each other; r = 0 if none repeats others."""
-        counts = np.array([self.size if constraint.kind in TURNS else 1.0 for constraint in self.held])
-        scaled = counts[:, None] * self.rows
+        counts = counts_of(self.held, self.size)[:, None]
+        scaled = counts * self.rows
         freedoms = np.arange(scaled.shape[1]) % self.motion.FREEDOMS
         scaled[:, freedoms >= self.motion.SHIFTS] /= self.size
         left, values, _ = np.linalg.svd(scaled, full_matrices=len(scaled) > scaled.shape[1])
         # in space rows repeat each other but for what positions miss the constraints by
         least = SAME if isinstance(self.motion, SpatialMotion) else REPEATED
         rank = np.count_nonzero(values > least * values.max(initial=0.0))
-        return np.asarray(left[:, rank:] / counts[:, None])
+        return np.asarray(left[:, rank:] / counts)
 
     def answers(self, rate: Matrix) -> Matrix:
         """Answer of rates to impulses in them (k, k) [1/kg], see `Kinetics.inverse_mass`; rate: rows (k, n)."""
@@ -247,27 +240,31 @@ class Instant:
         return found
 
 
+def counts_of(constraints: Iterable[Constraint], size: float) -> Matrix:
+    """Factor of each row (m,) [m]: those of turns count by a size [m]."""
+    return np.array([size if constraint.kind in TURNS else 1.0 for constraint in constraints])
+
+
 def rates(constraints: Iterable[Constraint], speed: Callable[[str], float]) -> Matrix:
     """Rates of all rows, (m,): of rigid actuators and cranks by name [m/s], [rad/s], else 0."""
-    return np.array(
-        [
-            speed(constraint.name) if constraint.part in ("actuators", "cranks") else 0.0
-            for constraint in constraints
-        ]
-    )
+    return np.array([speed(one.name) if one.part in ("actuators", "cranks") else 0.0 for one in constraints])
 
 
 def joint_impulses(constraints: Sequence[Constraint], impulses: Matrix) -> dict[str, float]:
     """Magnitudes of the impulses [N s] of pins and guides among those of all rows, see `Impulse.joints`."""
     found: dict[str, float] = {}
+    # a loose bearing may be held along its axis
     ideal = [constraint.name for constraint in constraints if constraint.kind == "across_1"]
     for constraint, impulse in zip(constraints, impulses.tolist(), strict=True):
-        if (
-            isinstance(constraint, Shift) and constraint.name in ideal
-        ):  # a loose bearing may be held along its axis
+        if isinstance(constraint, Shift) and constraint.name in ideal:
             name = constraint.name if constraint.part == "slides" else f"pin.{constraint.name}"
             found[name] = math.hypot(found.get(name, 0.0), impulse)
     return found
+
+
+def masses_of(linkage: Linkage) -> Matrix:
+    """Diagonal of the mass matrix of a linkage of the plane, (n,)."""
+    return np.ravel([(body.mass, body.mass, body.inertia) for body in linkage.bodies.values()])
 
 
 def tensor(body: SpatialBody) -> Matrix:
@@ -316,11 +313,10 @@ def gyroscopic(motion: Motion) -> Matrix | float:
 
 def lightness_of(motion: Motion, stand_in: Matrix | float) -> Callable[[Matrix], Matrix]:
     """What gives M^-1 f for forces f on all coordinates, (n, ..., freedoms); stand_in: added to a plane's M."""
-    bodies: Sequence[Any] = list(motion.linkage.bodies.values())
     if not isinstance(motion, SpatialMotion):
-        mass = np.ravel([(body.mass, body.mass, body.inertia) for body in bodies]) + stand_in
+        mass = masses_of(motion.linkage) + stand_in
         return lambda forces: np.asarray(forces / mass)
-    masses = np.array([body.mass for body in bodies])[:, None]
+    masses = np.array([body.mass for body in motion.linkage.bodies.values()])[:, None]
     inverse = np.linalg.inv(inertias(motion))
 
     def lightness(forces: Matrix) -> Matrix:
@@ -333,11 +329,4 @@ def lightness_of(motion: Motion, stand_in: Matrix | float) -> Callable[[Matrix],
 
 def joints_of(linkage: Linkage) -> list[tuple[str, Vector2]]:
     """Bodies with the points at which something is joined to them, the ground among them."""
-    found = []
-    for one in linkage.pins.values():
-        found += [(one.first, one.first_point), (one.second, one.second_point)]
-    for actuator in linkage.actuators.values():
-        found += [(actuator.foot, actuator.foot_point), (actuator.head, actuator.head_point)]
-    for slide in linkage.slides.values():
-        found += [(slide.body, slide.point), (slide.against, slide.point)]
-    return found
+    return [side for sides in linkage.joints.values() for side in sides]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 
 from support_exudyn.mechanics.channels import OIL, ChannelDefinitions, named, table
 from support_exudyn.mechanics.trajectory import LegSeries, Series
@@ -45,27 +45,19 @@ PUMP_CHANNELS = {
 }
 
 
-def _names(model: HydraulicLeg) -> Iterator[str]:
-    """Names of channels that a leg has besides those of its own valves."""
-    yield from ("pressure", "flow", "oil")
-    yield from (PRESSURES[room] for room in model.rooms if room in PRESSURES)
-    for path in model.paths.values():
-        yield from (path.flow, path.passed, path.loss)
-    if isinstance(model, HydraulicCylinder):
-        yield from ("opening", "viscous_loss")
-    if model.vapour_pressure is not None:
-        yield from ("cavity", "cavity_energy")
-    if model.seal_friction is not None:
-        yield "seal_loss"
-    if model.end_stops is not None or model.second_stage is not None:
-        yield "stop_loss"
-    if model.second_stage is not None:
-        yield "stage_extension"
-
-
-def channels_of_leg(model: HydraulicLeg) -> dict[str, LegChannel]:
+def _channels_of(model: HydraulicLeg) -> dict[str, LegChannel]:
     """What is recorded of a leg with the elements that it has, by name."""
-    names = {*_names(model)}
+    stops = model.end_stops is not None or model.second_stage is not None
+    optional = (
+        (isinstance(model, HydraulicCylinder), ("opening", "viscous_loss")),
+        (model.vapour_pressure is not None, ("cavity", "cavity_energy")),
+        (model.seal_friction is not None, ("seal_loss",)),
+        (stops, ("stop_loss",)),
+        (model.second_stage is not None, ("stage_extension",)),
+    )
+    names = {"pressure", "flow", "oil", *(PRESSURES.get(room, "") for room in model.rooms)}
+    names |= {name for path in model.paths.values() for name in (path.flow, path.passed, path.loss)}
+    names |= {name for there, some in optional if there for name in some}
     found = {name: channel for name, channel in CHANNELS.items() if name in names}
     for name, valve in model.valves.items():
         path = valve.path(name)
@@ -80,11 +72,11 @@ def channels_of_leg(model: HydraulicLeg) -> dict[str, LegChannel]:
 
 def leg_channels(legs: Mapping[str, HydraulicLeg], pump: bool) -> ChannelDefinitions:
     """The channels of legs by name; pump: whether they share one."""
-    known = {name: channels_of_leg(model) for name, model in legs.items()}
+    known = {name: _channels_of(model) for name, model in legs.items()}
     known |= {PUMP: PUMP_CHANNELS} if pump and legs else {}
     found: ChannelDefinitions = {}
     for name, channels in known.items():
-        rows = [(one, unit, meaning, _value(one)) for one, (unit, meaning) in channels.items()]
+        rows = [(one, *channel, _value(one)) for one, channel in channels.items()]
         found |= table(name, OIL, named("legs", name), rows)
     return found
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from support_exudyn.mechanics.closing import Conditions, newton
 from support_exudyn.mechanics.kinetics import Kinetics, Matrix, kinetics_of
-from support_exudyn.model.linkage import GROUND, Linkage, turned_moments
+from support_exudyn.model.linkage import Body, Linkage, Slide, turned_moments
 from user_forces.values.value import InputError, Vector2
 
 ROUNDS = 20
@@ -15,47 +15,37 @@ FARTHEST = 10.0  # [m]: no body moves so far
 AT_ODDS = 1e-9  # of the fastest rate: by more the joints do not allow what is asked for
 
 
-def turn(closed: Kinetics, position: Matrix, body: str) -> float:
-    """Angle by which a body has turned since the start [rad]."""
-    return 0.0 if body == GROUND else float(position[closed.first(body) + 2])
-
-
 def laid_out(closed: Kinetics, position: Matrix) -> Linkage:
     """The linkage with its bodies at another position, which is its start posture from then on."""
-    linkage = closed.linkage
+    linkage, motion = closed.linkage, closed.motion(position)
 
     def at(body: str, point: Vector2) -> Vector2:
-        x, y = closed.point(position, body, point)[0].tolist()
+        x, y = motion.place(body, point)[0].tolist()
         return x, y
 
-    bodies = {}
-    for name, body in linkage.bodies.items():
-        turned = turn(closed, position, name)
-        moments = None if body.moments is None else turned_moments(body.moments, turned)
-        bodies[name] = replace(body, centre=at(name, body.centre), angle=body.angle + turned, moments=moments)
+    def turned(name: str, body: Body) -> Body:
+        turn = float(motion.turn(name)[0])
+        moments = None if body.moments is None else turned_moments(body.moments, turn)
+        return replace(body, centre=at(name, body.centre), angle=body.angle + turn, moments=moments)
+
+    def slid(slide: Slide) -> Slide:
+        ends = slide.ends and (at(slide.against, slide.ends[0]), at(slide.against, slide.ends[1]))
+        direction = slide.direction + float(motion.turn(slide.against)[0])
+        return replace(slide, point=at(slide.body, slide.point), direction=direction, ends=ends)
+
     return replace(
         linkage,
-        bodies=bodies,
+        bodies={name: turned(name, body) for name, body in linkage.bodies.items()},
         pins={
-            name: replace(
-                pin, first_point=at(pin.first, pin.first_point), second_point=at(pin.second, pin.second_point)
-            )
-            for name, pin in linkage.pins.items()
+            name: replace(one, first_point=at(*one.sides[0]), second_point=at(*one.sides[1]))
+            for name, one in linkage.pins.items()
         },
         actuators={
-            name: replace(one, foot_point=at(one.foot, one.foot_point), head_point=at(one.head, one.head_point))
+            name: replace(one, foot_point=at(*one.sides[0]), head_point=at(*one.sides[1]))
             for name, one in linkage.actuators.items()
         },
         points={name: replace(one, point=at(one.body, one.point)) for name, one in linkage.points.items()},
-        slides={
-            name: replace(
-                one,
-                point=at(one.body, one.point),
-                direction=one.direction + turn(closed, position, one.against),
-                ends=None if one.ends is None else (at(one.against, one.ends[0]), at(one.against, one.ends[1])),
-            )
-            for name, one in linkage.slides.items()
-        },
+        slides={name: slid(one) for name, one in linkage.slides.items()},
     )
 
 
@@ -99,8 +89,7 @@ def set_moving(linkage: Linkage, spins: Mapping[str, float]) -> Linkage:
     still = np.zeros(3 * len(linkage.bodies))
     held = kinetics.rows(still)
     asked = np.array([kinetics.turning(still.size, body) for body in spins])
-    rows = np.vstack([held, asked])
-    rates = np.concatenate([np.zeros(len(held)), list(spins.values())])
+    rows, rates = np.vstack([held, asked]), np.array([0.0] * len(held) + list(spins.values()))
     light = 1.0 / np.sqrt(kinetics.mass() + kinetics.stand_in)
     velocity = light * np.linalg.lstsq(rows * light, rates, rcond=None)[0]
     wrong = np.abs(rows @ velocity - rates).max()

@@ -23,18 +23,16 @@ import numpy as np
 from support_exudyn.mechanics.body_motion import BodyMotion, Motion, SpatialMotion
 from support_exudyn.mechanics.constraints import (
     SAME,
-    TURNS,
     Constraint,
     Shift,
     Turn,
     constraints_in_space,
-    direction,
     independent,
     joints_held,
     matrix,
     turning,
 )
-from support_exudyn.mechanics.kinetics import gyroscopic, kinetics_of, lightness_of
+from support_exudyn.mechanics.kinetics import counts_of, gyroscopic, kinetics_of, lightness_of
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.linkage import GROUND, LinearActuator
 from support_exudyn.model.spatial_linkage import SpatialActuator, SpatialLinkage
@@ -72,7 +70,8 @@ def push_apart(
     forces: Series, motion: Motion, actuator: LinearActuator | SpatialActuator, force: Series
 ) -> None:
     """Add the force (n,) [N] with which an actuator pushes its ends apart to the forces on all coordinates."""
-    apart = force[:, None] * direction(motion, actuator)
+    span = motion.span(actuator)
+    apart = force[:, None] * (span / np.linalg.norm(span, axis=1)[:, None])
     push(forces, motion, actuator.head, apart, motion.place(actuator.head, actuator.head_point))
     push(forces, motion, actuator.foot, -apart, motion.place(actuator.foot, actuator.foot_point))
 
@@ -87,12 +86,12 @@ def equations(motion: Motion, held: Sequence[Constraint], driven: Series) -> Equ
     """
     wanted = -turning(motion, held)
     wanted[:, [constraint.part in ("actuators", "cranks") for constraint in held]] += driven
-    rows, size, stand_in = matrix(motion, held), 1.0, np.zeros(1)
+    size, stand_in = 1.0, np.zeros(1)
     if isinstance(motion, BodyMotion):
         kinetics = kinetics_of(motion.linkage)
         size, stand_in = kinetics.size, kinetics.stand_in
-    counts = np.array([size if constraint.kind in TURNS else 1.0 for constraint in held])
-    return Equations(rows, wanted, lightness_of(motion, stand_in), gyroscopic(motion), counts, stand_in)
+    lightness, counts = lightness_of(motion, stand_in), counts_of(held, size)
+    return Equations(matrix(motion, held), wanted, lightness, gyroscopic(motion), counts, stand_in)
 
 
 class Equations:
@@ -120,7 +119,9 @@ class Equations:
         stand_in: Series,
     ) -> None:
         self._stand_in, self._turning, self._lightness = stand_in, turning, lightness
-        self._counts, self._kept = counts, _kept(rows * counts[:, None])
+        some = np.linspace(0, len(rows) - 1, SAMPLES).astype(int) if len(rows) else ()
+        kept = max((independent(rows[n] * counts[:, None]) for n in some), key=len, default=[])
+        self._counts, self._kept = counts, np.array(kept, dtype=int)
         self._rows, self._wanted = rows[:, self._kept], wanted[:, self._kept]
         light = np.swapaxes(lightness(self._rows), 1, 2)
         self._square = self._rows @ light  # C M^-1 C^T
@@ -157,12 +158,6 @@ class Equations:
         square = np.swapaxes(nothing, 1, 2) @ nothing
         shares = np.linalg.solve(square, np.swapaxes(nothing, 1, 2) @ counted)
         return np.asarray(self._counts * (counted - nothing @ shares)[..., 0])
-
-
-def _kept(rows: Series) -> Series:
-    """Indices of rows that repeat no others, at that of some records where most do not; rows: (n, rows, k)."""
-    some = np.linspace(0, len(rows) - 1, SAMPLES).astype(int) if len(rows) else ()
-    return np.array(max((independent(rows[n]) for n in some), key=len, default=[]), dtype=int)
 
 
 def _solved(square: Series, right: Series) -> Series:

@@ -6,6 +6,7 @@ import math
 import sys
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import field, replace
+from functools import cached_property
 from typing import Annotated
 
 from pydantic import Field, model_validator
@@ -23,6 +24,8 @@ from user_forces.values.value import NonNegative, Positive, Real, Value, Vector2
 
 GROUND = "ground"
 Moments = tuple[Real, Real, Real]
+Side = tuple[str, Vector2]  # a body with a point of it [m], start posture
+Sides = tuple[Side, Side]
 ROUNDING = 1e-9
 
 
@@ -150,6 +153,11 @@ class PinPlace(Value):
     first_point: Metres[Vector2]
     second_point: Metres[Vector2]
 
+    @property
+    def sides(self) -> Sides:
+        """Both bodies, each with its point."""
+        return (self.first, self.first_point), (self.second, self.second_point)
+
 
 def pinned(first: str, second: str, point: Vector2) -> PinPlace:
     """A pin whose centres coincide at the start."""
@@ -171,6 +179,11 @@ class LinearActuator(Value):
     foot_point: Metres[Vector2]
     head_point: Metres[Vector2]
     driven: Annotated[bool, Field(strict=True)] = True
+
+    @property
+    def sides(self) -> Sides:
+        """Both bodies, each with its point: foot, then head."""
+        return (self.foot, self.foot_point), (self.head, self.head_point)
 
     @property
     def start_length(self) -> float:
@@ -208,6 +221,11 @@ class Slide(Value):
     against: str = GROUND
     turns: Annotated[bool, Field(strict=True)] = False
     ends: tuple[Vector2, Vector2] | None = None
+
+    @property
+    def sides(self) -> Sides:
+        """Both bodies, each with its point: the guided one, then that which carries the line."""
+        return (self.body, self.point), (self.against, self.point)
 
     @property
     def length(self) -> float:
@@ -292,8 +310,17 @@ class Linkage(Value):
     @property
     def farthest(self) -> float:
         """The largest coordinate of a centre or pin [m]: by its rounding all places are rounded."""
-        pins = (point for pin in self.pins.values() for point in (pin.first_point, pin.second_point))
-        return max(abs(x) for place in (*(body.centre for body in self.bodies.values()), *pins) for x in place)
+        points = [point for pin in self.pins.values() for _, point in pin.sides]
+        return max(
+            abs(x) for place in (*(body.centre for body in self.bodies.values()), *points) for x in place
+        )
+
+    @cached_property
+    def joints(self) -> dict[tuple[str, str], Sides]:
+        """What joins two bodies at points: pins, actuators and slides, by field and name."""
+        found: dict[tuple[str, str], Sides] = {("pins", name): one.sides for name, one in self.pins.items()}
+        found |= {("actuators", name): one.sides for name, one in self.actuators.items()}
+        return found | {("slides", name): one.sides for name, one in self.slides.items()}
 
     @property
     def driven(self) -> tuple[str, ...]:
@@ -304,27 +331,22 @@ class Linkage(Value):
     def _names_are_known(self) -> Linkage:
         if GROUND in self.bodies:
             raise ValueError(f"bodies.{GROUND}: the name of what does not move; call the body otherwise")
-        for name, pin in self.pins.items():
-            if pin.first == pin.second:
-                raise ValueError(f"pins.{name} = {pin.first!r} twice: allowed: two different bodies")
-        used = [(f"pins.{k}", b) for k, p in self.pins.items() for b in (p.first, p.second)]
-        used += [(f"actuators.{k}", b) for k, c in self.actuators.items() for b in (c.foot, c.head)]
-        used += [(f"slides.{k}.against", s.against) for k, s in self.slides.items()]
-        used += [(f"points.{k}", p.body) for k, p in self.points.items()]
+        wheels = {("gears", name): (one.first, one.second) for name, one in self.gears.items()}
+        pairs = {joint: (one, other) for joint, ((one, _), (other, _)) in self.joints.items()} | wheels
+        used = [(f"{part}.{name}", body) for (part, name), pair in pairs.items() for body in pair]
+        used += [(f"points.{name}", one.body) for name, one in self.points.items()]
         used += [(f"gears.{k}.carrier", g.carrier) for k, g in self.gears.items() if g.carrier is not None]
-        moving = [(f"cranks.{k}", c.body) for k, c in self.cranks.items()]
-        moving += [(f"slides.{k}", s.body) for k, s in self.slides.items()]
-        moving += [(f"gears.{k}", body) for k, gear in self.gears.items() for body in (gear.first, gear.second)]
+        moving = [(f"cranks.{name}", one.body) for name, one in self.cranks.items()]
+        moving += [(f"slides.{name}", one.body) for name, one in self.slides.items()]
+        moving += [(f"gears.{name}", wheel) for (_, name), pair in wheels.items() for wheel in pair]
         check_bodies(used, self.bodies)
         for where, body in moving:
             if body not in self.bodies:
                 raise ValueError(f"{where} = {body!r}: no such moving body; {nearest(body, self.bodies)}")
-        for name, slide in self.slides.items():
-            if slide.body == slide.against:
-                raise ValueError(f"slides.{name} = {slide.body!r} twice: allowed: two different bodies")
+        for (part, name), (one, other) in pairs.items():
+            if one == other and part != "actuators":
+                raise ValueError(f"{part}.{name} = {one!r} twice: allowed: two different bodies")
         for name, gear in self.gears.items():
-            if gear.first == gear.second:
-                raise ValueError(f"gears.{name} = {gear.first!r} twice: allowed: two different bodies")
             if gear.carrier in (gear.first, gear.second):
                 raise ValueError(f"gears.{name}.carrier = {gear.carrier!r}: is a wheel; allowed: another body")
         found = {name: replace(one, carrier=self._carrier(name, one)) for name, one in self.gears.items()}
@@ -333,8 +355,7 @@ class Linkage(Value):
 
     def _axes(self, gear: Gear) -> dict[str, float]:
         """The bodies on which pins or guides hold both wheels, each with the distance of the axes [m]."""
-        ends = [((p.first, p.first_point), (p.second, p.second_point)) for p in self.pins.values()]
-        ends += [((s.body, s.point), (s.against, s.point)) for s in self.slides.values()]
+        ends = [one.sides for one in (*self.pins.values(), *self.slides.values())]
         held = {}
         for wheel in (gear.first, gear.second):
             groups = [{wheel_end} for pair in ends for wheel_end in pair if wheel_end[0] == wheel]

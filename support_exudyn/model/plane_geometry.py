@@ -42,13 +42,6 @@ def side(a: Vector2, b: Vector2, point: Vector2) -> float:
     return 1.0 if cross >= 0.0 else -1.0
 
 
-def parts_of(vector: Vector2, base: Vector2) -> tuple[float, float]:
-    """A vector in parts of another and of that turned by 90 degrees."""
-    square = base[0] ** 2 + base[1] ** 2
-    along = (vector[0] * base[0] + vector[1] * base[1]) / square
-    return along, (vector[1] * base[0] - vector[0] * base[1]) / square
-
-
 def circle_intersection(a: Vector2, ra: float, b: Vector2, rb: float, which: float) -> Vector2 | None:
     """Intersection of circles about a and b with radii ra and rb; None if there is none.
 

@@ -17,7 +17,6 @@ from support_exudyn.mechanics.contact_places import (
     ContactPlace,
     block_places,
     contact_places,
-    guide_with_mass,
     lacks_mass,
     with_mass,
 )
@@ -347,7 +346,7 @@ class ScenarioData(Value, ABC):
         found = dict(self.guides)
         for name, guide in found.items():
             if isinstance(guide, ClearanceGuide) and lacks_mass(guide.normal):
-                found[name] = guide_with_mass(guide, name, self.linkage, self.open_kinetics)
+                found[name] = with_mass(guide, name, self.linkage, self.open_kinetics)
         return found
 
     @property

@@ -9,7 +9,7 @@ import numpy as np
 
 from support_exudyn.mechanics.acting_loads import largest_forces, strain_rates
 from support_exudyn.mechanics.constraints import joints_held
-from support_exudyn.mechanics.contact_places import ContactPlace
+from support_exudyn.mechanics.contact_places import ContactPlace, contact_rate
 from support_exudyn.mechanics.kinetics import Kinetics, Matrix, kinetics_of
 from support_exudyn.model.drives.drive import Reciprocating, Stroke
 from support_exudyn.model.drives.table_drive import TableDrive
@@ -208,7 +208,7 @@ def _running(scenario: ScenarioData, closed: Kinetics) -> float:
 def _inverse_mass(scenario: ScenarioData, place: ContactPlace) -> Matrix:
     """Inverse effective mass of a journal in the start posture, ground's axes (2, 2) [1/kg]."""
     still = np.zeros(3 * len(scenario.linkage.bodies))
-    return scenario.open_kinetics.inverse_mass(still, place.rate(scenario.open_kinetics.motion(still)))
+    return scenario.open_kinetics.inverse_mass(still, contact_rate(scenario.open_kinetics.motion(still), place))
 
 
 def _drive_time(scenario: ScenarioData, linkage: Linkage) -> float:

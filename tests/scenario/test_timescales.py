@@ -22,6 +22,7 @@ from support_exudyn import (
     UniformSpeed,
     machine,
 )
+from support_exudyn.mechanics.contact_places import contact_rate
 from support_exudyn.scenario.timescales import timescales
 from tests.cases.run_cases import (
     CRANK_SPEED,
@@ -217,5 +218,5 @@ def test_the_mass_of_a_guide_is_that_along_the_normals_of_its_corners() -> None:
     masses = [place.contact.normal.mass for place in places]  # type: ignore[attr-defined]
     free, still = scene.open_kinetics, np.zeros(9)
     # of the four corners, by hand: the second row of each answer is that across a guide along x
-    across = [free.inverse_mass(still, place.rate(free.motion(still)))[1, 1] for place in places]
+    across = [free.inverse_mass(still, contact_rate(free.motion(still), place))[1, 1] for place in places]
     assert masses == [pytest.approx(1.0 / np.mean(across), rel=1e-12)] * 4

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import pairwise
 from types import MappingProxyType
 from typing import Any
 
@@ -40,7 +41,7 @@ class Moved:
 
 @dataclass(frozen=True)
 class WayPoint:
-    """A point of a way that is worth telling.
+    """A notable point of a way.
 
     Arguments:
         what: "dead centre", where the way ends; "turns back", where a part stands still for a moment; "change
@@ -55,6 +56,11 @@ class WayPoint:
     part: str = ""
     why: str = ""
 
+    @property
+    def reason(self) -> str:
+        """What lies in line, as the end of a sentence."""
+        return f": {self.why}" if self.why else ""
+
 
 @dataclass(frozen=True)
 class DriveWay:
@@ -64,8 +70,7 @@ class DriveWay:
         drives: names of the driven parts; several actuators extend alike.
         linkage: in its start posture.
         moved: postures in the order of their travel.
-        goal: ends of the travel that were tried, downwards and upwards [rad], [m].
-        ends: ends of the travel that were reached.
+        ends: ends of the travel that were reached, downwards and upwards [rad], [m].
         points: dead centres and others, in the order of their travel.
         beyond: dead centres beyond both ends, the lower and the upper; None where none is near.
         resting: bodies that the driven parts do not move, among them the ground.
@@ -75,7 +80,6 @@ class DriveWay:
     drives: tuple[str, ...]
     linkage: Linkage
     moved: Sequence[Moved] = field(repr=False)
-    goal: tuple[float, float]
     ends: tuple[float, float]
     points: Sequence[WayPoint]
     beyond: tuple[WayPoint | None, WayPoint | None]
@@ -133,25 +137,27 @@ class DriveWay:
     @cached_property
     def motion(self) -> BodyMotion:
         """The bodies in all postures."""
-        still = np.zeros((len(self.moved), 3 * len(self.linkage.bodies)))
-        return BodyMotion(self.linkage, np.array([one.position for one in self.moved]), still)
+        position = np.array([one.position for one in self.moved])
+        return BodyMotion(self.linkage, position, np.zeros_like(position))
 
     def data(self) -> dict[str, Any]:
         """The way as plain data, SI and radians."""
-        points = [
-            {"what": one.what, "travel": one.travel, "value": self.start + one.travel, "part": one.part,
-             "in_line": one.why}
-            for one in self.points
-        ]  # fmt: skip
         return {
             "start": self.start,
             "travel": list(self.ends),
             "locks": self.locks,
             "turns_right_round": self.right_round,
-            "points": points,
-            "dead_centres_beyond": [
-                None if one is None else {"travel": one.travel, "in_line": one.why} for one in self.beyond
+            "points": [
+                {
+                    "what": one.what,
+                    "travel": one.travel,
+                    "value": self.start + one.travel,
+                    "part": one.part,
+                    "in_line": one.why,
+                }
+                for one in self.points
             ],
+            "dead_centres_beyond": [one and {"travel": one.travel, "in_line": one.why} for one in self.beyond],
         }
 
 
@@ -177,181 +183,38 @@ def way_of(
         loads: that act besides the weight, by name.
         farther: how far beyond both ends a dead centre is searched for [m].
     """
-    route = _Route(conditions, drives, [(0.0, conditions.still)])
-    up = list(route.march((0.0, goal[1]), conditions.still, steps))
-    reached = up[-1][0] if up else 0.0
-    down: list[Station] = []
-    if not (drives[0] in linkage.cranks and goal[1] and reached == goal[1]):
-        down = list(route.march((0.0, goal[0]), conditions.still, steps))
-    route = _Route(conditions, drives, [*down[::-1], (0.0, conditions.still), *up])
-    ends = down[-1][0] if down else 0.0, reached
+    start = (0.0, conditions.still)
+    search = _Search(conditions, drives)
+    up, down = search.march(start, goal[1], steps), list[Station]()
+    if not (search.crank and goal[1] and up and up[-1][0] == goal[1]):
+        down = search.march(start, goal[0], steps)
+    stations = [*down[::-1], start, *up]
+    ends = stations[0][0], stations[-1][0]
     locked = [end for end, asked, tried in zip(ends, goal, (down, up), strict=True) if tried and end != asked]
-    if goal[1] and not up and not down:
+    if goal[1] and len(stations) == 1:
         locked = [0.0]
-    points = [route.dead_centre(one) for one in route.stations for end in locked if one[0] == end]
-    rates = [route.rates(n) for n in range(len(route.stations))]
-    inner = [n for n, (travel, _) in enumerate(route.stations) if travel not in locked or (not up and not down)]
-    within = _Route(conditions, drives, [route.stations[n] for n in inner])
-    points += within.turning_back([rates[n] for n in inner])
-    points += within.change_points()
+    points = [search.dead_centre(one) for one in stations if one[0] in locked]
+    rates = []
+    for n, (_, posture) in enumerate(stations):
+        before, after = stations[max(n - 1, 0)], stations[min(n + 1, len(stations) - 1)]
+        along = None if before is after else (after[1] - before[1]) / (after[0] - before[0])
+        rates.append(search.rates(posture, along))
+    inner = [n for n, one in enumerate(stations) if one[0] not in locked or len(stations) == 1]
+    points += search.turning_back([stations[n] for n in inner], [rates[n] for n in inner])
+    points += search.change_points([stations[n] for n in inner])
     fastest = np.max([np.abs(one).reshape(-1, 3).max(axis=1) for one in rates], axis=0)
     resting = [GROUND, *(n for n, v in zip(linkage.bodies, fastest, strict=True) if v < STILL * fastest.max())]
-    positions = [(travel, moved / conditions.arms) for travel, moved in route.stations]
+    positions = [(travel, posture / conditions.arms) for travel, posture in stations]
     return DriveWay(
         drives=drives,
         linkage=linkage,
         moved=[Moved(travel, at, statics(linkage, at, loads=loads)) for travel, at in positions],
-        goal=goal,
         ends=ends,
         points=sorted(points, key=lambda one: one.travel),
-        beyond=(route.beyond(route.stations[0], -farther), route.beyond(route.stations[-1], farther)),
+        beyond=(search.beyond(stations[0], -farther), search.beyond(stations[-1], farther)),
         resting=resting,
         reach=_reach(linkage, drives, resting),
     )
-
-
-@dataclass(frozen=True)
-class _Route:
-    """Postures of a linkage in the order of the travel of its driven parts, each with its travel."""
-
-    conditions: Conditions
-    drives: tuple[str, ...]
-    stations: Sequence[Station]
-
-    def march(self, way: tuple[float, float], start: Matrix, steps: int) -> Iterator[Station]:
-        """Postures step by step, from one travel to another, as far as the linkage closes on the same way."""
-        first, goal = way
-        moved, reached, along = start, first, None
-        for number in range(1, steps + 1 if goal != first else 0):
-            wanted, before = first + (goal - first) * (number / steps), moved  # the last is the goal to the bit
-            moved, share = moved_on(self.conditions, before, dict.fromkeys(self.drives, wanted), along)
-            along = moved - before
-            if share < 1.0:
-                if share > 0.0:
-                    yield reached + share * (wanted - reached), moved
-                return
-            yield wanted, moved
-            reached = wanted
-
-    def dead_centre(self, station: Station) -> WayPoint:
-        """A posture as a dead centre, with what lies in line there."""
-        travel, moved = station
-        why = in_line(self.conditions, moved, self.conditions.rows(moved))[0]
-        return WayPoint("dead centre", travel, why=why)
-
-    def beyond(self, last: Station, farther: float) -> WayPoint | None:
-        """The dead centre that lies at most so far [m] beyond a posture; None if there is none."""
-        travel, moved = last
-        found = list(self.march((travel, travel + farther), moved, STEPS_BEYOND))
-        if not farther or (found and found[-1][0] == travel + farther):
-            return None
-        return self.dead_centre(found[-1] if found else last)
-
-    def between(self, number: int, travel: float) -> Matrix:
-        """The posture at a travel, reached from a station in the direction of the next."""
-        start = self.stations[number][1]
-        along = self.stations[number + 1][1] - start
-        return moved_on(self.conditions, start, dict.fromkeys(self.drives, travel), along)[0]
-
-    @property
-    def _rows(self) -> list[int]:
-        """Of the driven parts among all conditions."""
-        kind = "cranks" if self.drives[0] in self.conditions.linkage.cranks else "actuators"
-        return [self.conditions.kinetics.owners().index((kind, name)) for name in self.drives]
-
-    def rates(self, number: int) -> Matrix:
-        """Rates of all coordinates at a station, counted by arms, by that of the drives (n,); 0 if it locks."""
-        before = self.stations[max(number - 1, 0)]
-        after = self.stations[min(number + 1, len(self.stations) - 1)]
-        along = None if after[0] == before[0] else (after[1] - before[1]) / (after[0] - before[0])
-        return self._rates_at(self.stations[number][1], along)
-
-    def _rates_at(self, moved: Matrix, along: Matrix | None = None) -> Matrix:
-        ahead = np.zeros(len(self.conditions.counts))
-        ahead[self._rows] = self.conditions.counts[self._rows]
-        found = tangent(self.conditions, moved, ahead, along)
-        return np.zeros(moved.size) if found is None else found
-
-    def turning_back(self, rates: Sequence[Matrix]) -> Iterator[WayPoint]:
-        """Where parts on the ground stand still for a moment; rates: at all stations."""
-        (first, *others), fastest = self._rows, float(np.max(np.abs(rates)))
-        for part, row in self._outputs().items():
-            speeds = [float(row @ one) for one in rates]
-            if max(map(abs, speeds)) < STILL * fastest:
-                continue
-            for travel, moved in self._zeros(speeds, row):
-                rows = self.conditions.rows(moved)
-                rows[others] -= rows[first]  # what is driven alike stays so
-                rows[first] = row  # the part that turns back held in place of the drive
-                yield WayPoint("turns back", travel, part, in_line(self.conditions, moved, rows)[0])
-
-    def _outputs(self) -> dict[str, Matrix]:
-        """Rows that give the rate of what is pinned to the ground or slides on it, but for the driven part."""
-        conditions, linkage = self.conditions, self.conditions.linkage
-        rows: dict[str, Matrix] = {}
-        own = linkage.cranks[self.drives[0]].body if self.drives[0] in linkage.cranks else ""
-        for pin in linkage.pins.values():
-            if GROUND in (pin.first, pin.second):
-                body = pin.second if pin.first == GROUND else pin.first
-                rows[body] = conditions.kinetics.turning(conditions.still.size, body) / conditions.arms
-        for slide in linkage.slides.values():
-            if slide.against == GROUND and slide.body not in rows:
-                row = conditions.still.copy()
-                first = conditions.kinetics.first(slide.body)
-                row[first : first + 2] = math.cos(slide.direction), math.sin(slide.direction)
-                rows[slide.body] = row
-        return {body: conditions.size * row for body, row in rows.items() if body != own}
-
-    def _zeros(self, values: Sequence[float], row: Matrix) -> Iterator[Station]:
-        """Where the rate that a row gives passes zero; values: at all stations."""
-        from scipy.optimize import brentq  # slow to import
-
-        stations = self.stations
-        most = max(map(abs, values), default=0.0)
-        if not most > 0.0 or max(values) - min(values) < NONE * most:
-            return
-        still = [abs(one) < NONE * most for one in values]
-        closed = math.isclose(stations[-1][0] - stations[0][0], TURN, rel_tol=1e-12) and (
-            self.drives[0] in self.conditions.linkage.cranks
-        )
-        for n, (travel, moved) in enumerate(stations):
-            if still[n]:
-                before = n - 1 if n else (len(stations) - 2 if closed else -1)
-                if before >= 0 and n + 1 < len(stations) and values[before] * values[n + 1] < 0.0:
-                    yield travel, moved
-            elif n + 1 < len(stations) and not still[n + 1] and values[n] * values[n + 1] < 0.0:
-                ahead = stations[n + 1][0]
-
-                def rate(x: float, n: int = n) -> float:
-                    return float(row @ self._rates_at(self.between(n, x)))
-
-                if rate(travel) * rate(ahead) > 0.0:  # rounding next to where all bars lie in line
-                    yield (travel, moved) if abs(values[n]) < abs(values[n + 1]) else stations[n + 1]
-                    continue
-                found = float(brentq(rate, travel, ahead, xtol=FOUND * max(abs(travel), abs(ahead))))
-                yield found, self.between(n, found)
-
-    def change_points(self) -> Iterator[WayPoint]:
-        """Where one condition more than elsewhere repeats the others: the linkage could go on otherwise."""
-        from scipy.optimize import minimize_scalar  # slow to import
-
-        def left(moved: Matrix) -> Matrix:
-            return np.asarray(np.linalg.svd(self.conditions.rows(moved), compute_uv=False))
-
-        values = np.array([left(moved) for _, moved in self.stations])
-        rank = int(np.count_nonzero(np.median(values, axis=0) > SINGULAR))
-        least = values[:, rank - 1]
-        for n in range(1, len(self.stations) - 1):
-            if not (least[n] <= least[n - 1] and least[n] < least[n + 1]) or least[n] > NEAR_SINGULAR:
-                continue
-            found = minimize_scalar(
-                lambda x, n=n: float(left(self.between(n - 1, x))[rank - 1]), method="bounded",
-                bounds=(self.stations[n - 1][0], self.stations[n + 1][0]), options={"xatol": 1e-10},
-            )  # fmt: skip
-            if found.fun < SINGULAR:
-                moved = self.between(n - 1, float(found.x))
-                why = in_line(self.conditions, moved, self.conditions.rows(moved))[0]
-                yield WayPoint("change point", float(found.x), why=why)
 
 
 def _reach(linkage: Linkage, drives: tuple[str, ...], resting: Sequence[str]) -> dict[str, int]:
@@ -359,16 +222,144 @@ def _reach(linkage: Linkage, drives: tuple[str, ...], resting: Sequence[str]) ->
     edge = [linkage.cranks[name].body for name in drives if name in linkage.cranks]
     struts = [linkage.actuators[name] for name in drives if name in linkage.actuators]
     edge += [body for one in struts for body in (one.foot, one.head)]
-    edge, reach = [body for body in edge if body not in resting], dict[str, int]()
-    ends = [(one.first, one.second) for one in linkage.pins.values()]
+    ends = [(a, b) for (part, _), ((a, _), (b, _)) in linkage.joints.items() if part != "actuators"]
     ends += [(one.first, one.second) for one in linkage.gears.values()]
-    ends += [(one.body, one.against) for one in linkage.slides.values()]
-    far = 0
-    while edge:
+    reach, far = dict[str, int](), 0
+    while edge := [one for one in edge if one not in reach and one not in resting]:
         reach |= dict.fromkeys(edge, far)
-        following = [other for a, b in ends for one, other in ((a, b), (b, a)) if one in edge]
-        edge, far = (
-            [one for one in dict.fromkeys(following) if one not in reach and one not in resting],
-            far + 1,
-        )
+        edge, far = [b if one == a else a for a, b in ends for one in (a, b) if one in edge], far + 1
     return reach
+
+
+class _Search:
+    """Search for postures of a linkage, by the travel of its driven parts.
+
+    Arguments:
+        conditions: which hold as the linkage is moved.
+        drives: names of the driven parts.
+    """
+
+    def __init__(self, conditions: Conditions, drives: tuple[str, ...]) -> None:
+        self.conditions, self.drives = conditions, drives
+        self.crank = drives[0] in conditions.linkage.cranks
+        kind, owners = "cranks" if self.crank else "actuators", conditions.kinetics.owners()
+        self.driven = [owners.index((kind, name)) for name in drives]  # rows of the driven parts
+
+    def march(self, start: Station, goal: float, steps: int) -> list[Station]:
+        """Postures step by step up to a travel, as far as the linkage closes on the same way."""
+        (first, moved), along, found = start, None, list[Station]()
+        reached = first
+        for number in range(1, steps + 1 if goal != first else 0):
+            wanted, before = first + (goal - first) * (number / steps), moved  # the last is the goal to the bit
+            moved, share = moved_on(self.conditions, before, dict.fromkeys(self.drives, wanted), along)
+            if share > 0.0:
+                found.append((wanted if share == 1.0 else reached + share * (wanted - reached), moved))
+            if share < 1.0:
+                break
+            along, reached = moved - before, wanted
+        return found
+
+    def dead_centre(self, station: Station) -> WayPoint:
+        """A posture as a dead centre, with what lies in line there."""
+        return WayPoint("dead centre", station[0], why=self._why(station[1]))
+
+    def _why(self, moved: Matrix) -> str:
+        return in_line(self.conditions, moved, self.conditions.rows(moved))
+
+    def beyond(self, last: Station, farther: float) -> WayPoint | None:
+        """The dead centre that lies at most so far [m] beyond a posture; None if there is none."""
+        found = self.march(last, last[0] + farther, STEPS_BEYOND)
+        if not farther or (found and found[-1][0] == last[0] + farther):
+            return None
+        return self.dead_centre(found[-1] if found else last)
+
+    def between(self, first: Station, second: Station, travel: float) -> Matrix:
+        """The posture at a travel, reached from a station in the direction of another."""
+        travels = dict.fromkeys(self.drives, travel)
+        return moved_on(self.conditions, first[1], travels, second[1] - first[1])[0]
+
+    def rates(self, moved: Matrix, along: Matrix | None = None) -> Matrix:
+        """Rates of all coordinates in a posture, counted by arms, by that of the drives (n,); 0 if it locks."""
+        ahead = np.zeros(len(self.conditions.counts))
+        ahead[self.driven] = self.conditions.counts[self.driven]
+        found = tangent(self.conditions, moved, ahead, along)
+        return np.zeros(moved.size) if found is None else found
+
+    def turning_back(self, stations: Sequence[Station], rates: Sequence[Matrix]) -> Iterator[WayPoint]:
+        """Where what is pinned to the ground or slides on it stands still for a moment; rates: at stations."""
+        conditions, linkage = self.conditions, self.conditions.linkage
+        parts: dict[str, Matrix] = {}  # rows that give their rates
+        for pin in linkage.pins.values():
+            if GROUND in (pin.first, pin.second):
+                body = pin.second if pin.first == GROUND else pin.first
+                parts[body] = conditions.kinetics.turning(conditions.still.size, body) / conditions.arms
+        for slide in linkage.slides.values():
+            if slide.against == GROUND and slide.body not in parts:
+                parts[slide.body], first = conditions.still.copy(), conditions.kinetics.first(slide.body)
+                parts[slide.body][first : first + 2] = math.cos(slide.direction), math.sin(slide.direction)
+        if self.crank:
+            parts.pop(linkage.cranks[self.drives[0]].body, None)
+        first, *others = self.driven
+        fastest = float(np.max(np.abs(rates)))
+        for part, unscaled in parts.items():
+            row = conditions.size * unscaled
+            speeds = [float(row @ one) for one in rates]
+            if max(map(abs, speeds)) < STILL * fastest:
+                continue
+            for travel, moved in self._zeros(stations, speeds, row):
+                rows = conditions.rows(moved)
+                rows[others] -= rows[first]  # what is driven alike stays so
+                rows[first] = row  # the part that turns back held in place of the drive
+                yield WayPoint("turns back", travel, part, in_line(conditions, moved, rows))
+
+    def _zeros(self, stations: Sequence[Station], values: Sequence[float], row: Matrix) -> Iterator[Station]:
+        """Where the rate that a row gives passes zero; values: at all stations."""
+        from scipy.optimize import brentq  # slow to import
+
+        most = max(map(abs, values), default=0.0)
+        if not most > 0.0 or max(values) - min(values) < NONE * most:
+            return
+        once_round = self.crank and math.isclose(stations[-1][0] - stations[0][0], TURN, rel_tol=1e-12)
+        if once_round and abs(values[0]) < NONE * most:  # what is before the start is what is before the end
+            stations, values = [stations[-2], *stations], [values[-2], *values]
+        moving = [n for n, one in enumerate(values) if abs(one) >= NONE * most]
+        for n, following in pairwise(moving):
+            if values[n] * values[following] > 0.0 or following - n > 2:
+                continue
+            if following - n == 2:
+                yield stations[n + 1]
+                continue
+            one, other = stations[n], stations[following]
+
+            def rate(travel: float, one: Station = one, other: Station = other) -> float:
+                return float(row @ self.rates(self.between(one, other, travel)))
+
+            if rate(one[0]) * rate(other[0]) > 0.0:  # rounding next to where all bars lie in line
+                yield one if abs(values[n]) < abs(values[following]) else other
+                continue
+            travel = float(brentq(rate, one[0], other[0], xtol=FOUND * max(abs(one[0]), abs(other[0]))))
+            yield travel, self.between(one, other, travel)
+
+    def change_points(self, stations: Sequence[Station]) -> Iterator[WayPoint]:
+        """Where one condition more than elsewhere repeats the others: the linkage could go on otherwise."""
+        from scipy.optimize import minimize_scalar  # slow to import
+
+        def left(moved: Matrix) -> Matrix:
+            return np.asarray(np.linalg.svd(self.conditions.rows(moved), compute_uv=False))
+
+        values = np.array([left(moved) for _, moved in stations])
+        last = int(np.count_nonzero(np.median(values, axis=0) > SINGULAR)) - 1
+        least = values[:, last]
+        for n in range(1, len(stations) - 1):
+            if not (least[n] <= least[n - 1] and least[n] < least[n + 1]) or least[n] > NEAR_SINGULAR:
+                continue
+            before, after = stations[n - 1], stations[n + 1]
+            found = minimize_scalar(
+                lambda x, n=n: float(left(self.between(stations[n - 1], stations[n], x))[last]),
+                method="bounded",
+                bounds=(before[0], after[0]),
+                options={"xatol": 1e-10},
+            )
+            if found.fun < SINGULAR:
+                moved = self.between(before, stations[n], float(found.x))
+                yield WayPoint("change point", float(found.x), why=self._why(moved))

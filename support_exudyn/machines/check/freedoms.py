@@ -5,25 +5,32 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import combinations
 from typing import Any
 
 import numpy as np
 
-from support_exudyn.mechanics.closing import Conditions, repeated_count
+from support_exudyn.mechanics.closing import DRIVEN, Conditions, repeated_count
 from support_exudyn.mechanics.kinetics import Matrix
 from support_exudyn.model.linkage import GROUND, Linkage
 
 ZERO = 1e-9  # of conditions and movements, whose numbers are about 1
 SEEN = 1e-6  # of the fastest: what moves less stands still
 FIELDS = {"slides": "guides"}  # what files call a field of the linkage
-DRIVEN = ("actuators", "cranks")
 STRAIGHT = 1e-3  # sine of an angle below which two lines are one: dead centres are located to about 1e-5 rad
 LOADED = 1e-3  # of the largest force: what bears less bears none
-Places = dict[tuple[str, str, str], Matrix]  # of joints of a body: field of the linkage, name, end
 SHARED = (
     "how they share a force is not determined by ideal, rigid parts: reported are the least forces that fit; a "
     "bushing or clearance in one of them determines it"
 )
+
+
+def listed(names: Sequence[str]) -> str:
+    """Names in a row: a, b and c."""
+    return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
+
+
+# --- conditions that repeat each other ---
 
 
 @dataclass(frozen=True)
@@ -42,8 +49,9 @@ class RepeatedConditions:
 
     def said(self) -> str:
         """Which joints repeat each other, or which drives fight, in a sentence."""
-        names = [f"{FIELDS.get(kind, kind)}.{name}" for kind, name in self.parts]
-        joints = listed([name for name, part in zip(names, self.parts, strict=True) if part not in self.driven])
+        joints = listed(
+            [f"{FIELDS.get(kind, kind)}.{n}" for kind, n in self.parts if (kind, n) not in self.driven]
+        )
         driven = [f"{kind}.{name}" for kind, name in self.driven]
         if len(driven) > 1:
             return (
@@ -56,9 +64,41 @@ class RepeatedConditions:
         return f"{joints}: one of their {self.conditions} conditions repeats the others"
 
 
+def repeated(conditions: Conditions, moved: Matrix) -> list[RepeatedConditions]:
+    """Conditions that follow from others in a posture, each with those that it follows from.
+
+    moved: coordinates counted by arms (n,). Joints come before driven parts, so that these are reported only
+    where joints alone leave the freedom.
+    """
+    rows, owners = conditions.rows(moved), conditions.kinetics.owners()
+    base: list[int] = []
+    found = []
+    for row in sorted(range(len(owners)), key=lambda row: owners[row][0] in DRIVEN):
+        held = rows[base].reshape(-1, rows.shape[1])
+        shares = np.linalg.lstsq(held.T, rows[row], rcond=None)[0] if base else np.zeros(0)
+        if np.linalg.norm(rows[row] - held.T @ shares) > ZERO * np.linalg.norm(rows[row]):
+            base.append(row)
+            continue
+        together = [row, *(one for one, share in zip(base, shares, strict=True) if abs(share) > SEEN)]
+        parts = list(dict.fromkeys(owners[one] for one in sorted(together)))
+        driven = [part for part in parts if part[0] in DRIVEN and part[1] in conditions.linkage.driven]
+        found.append(RepeatedConditions(parts, sum(owner in parts for owner in owners), driven))
+    return found
+
+
+def shared(conditions: Conditions) -> list[str]:
+    """Joints whose forces rigid bodies do not determine as a linkage moves, each group in a sentence."""
+    if not repeated_count(conditions)[0]:
+        return []
+    return [f"{one.said()}; {SHARED}" for one in repeated(conditions, conditions.still)]
+
+
+# --- movements ---
+
+
 @dataclass(frozen=True)
 class Movement:
-    """A way in which a linkage can move: bodies that move, each with how.
+    """A way in which a linkage can move.
 
     Arguments:
         bodies: how each moves that does, by name.
@@ -77,105 +117,30 @@ class Movement:
         return {"bodies": self.bodies, "rates": self.rates.tolist()}
 
 
-def listed(names: Sequence[str]) -> str:
-    """Names in a row: a, b and c."""
-    return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
-
-
-def repeated(conditions: Conditions, moved: Matrix) -> list[RepeatedConditions]:
-    """Conditions that follow from others in a posture, each with those that it follows from.
-
-    moved: coordinates counted by arms (n,). Joints come before driven parts, so that these are told only where
-    joints alone leave the freedom.
-    """
-    rows, owners = conditions.rows(moved), conditions.kinetics.owners()
-    order = sorted(range(len(owners)), key=lambda row: owners[row][0] in DRIVEN)
-    base: list[int] = []
-    found = []
-    for row in order:
-        held = rows[base].reshape(-1, rows.shape[1])
-        shares = np.linalg.lstsq(held.T, rows[row], rcond=None)[0] if base else np.zeros(0)
-        if np.linalg.norm(rows[row] - held.T @ shares) > ZERO * np.linalg.norm(rows[row]):
-            base.append(row)
-            continue
-        together = [row, *(one for one, share in zip(base, shares, strict=True) if abs(share) > SEEN)]
-        parts = list(dict.fromkeys(owners[one] for one in sorted(together)))
-        found.append(
-            RepeatedConditions(
-                parts=parts,
-                conditions=sum(owner in parts for owner in owners),
-                driven=[part for part in parts if part[0] in DRIVEN and part[1] in conditions.linkage.driven],
-            )
-        )
-    return found
-
-
-def shared(conditions: Conditions) -> list[str]:
-    """Joints whose forces rigid bodies do not determine as a linkage moves, each group in a sentence."""
-    if not repeated_count(conditions)[0]:
-        return []
-    start = np.zeros(3 * len(conditions.linkage.bodies))
-    return [f"{one.said()}; {SHARED}" for one in repeated(conditions, start)]
-
-
 def floating(linkage: Linkage) -> list[list[str]]:
     """Groups of bodies that pins, guides and actuators join to each other, but not to the ground."""
-    edges = [(one.first, one.second) for one in linkage.pins.values()]
-    edges += [(one.foot, one.head) for one in linkage.actuators.values()]
-    edges += [(one.body, one.against) for one in linkage.slides.values()]
     groups: list[set[str]] = [{name} for name in (GROUND, *linkage.bodies)]
-    for first, second in edges:
-        joined = [group for group in groups if first in group or second in group]
+    for (first, _), (second, _) in linkage.joints.values():
+        joined = [group for group in groups if group & {first, second}]
         groups = [group for group in groups if group not in joined] + [set().union(*joined)]
     return [[name for name in linkage.bodies if name in group] for group in groups if GROUND not in group]
 
 
-def movements(conditions: Conditions, moved: Matrix, rows: Matrix | None = None) -> list[Movement]:
-    """Independent ways in which a linkage can move in a posture, each of as few bodies as elimination leaves.
+def movements(conditions: Conditions, moved: Matrix) -> list[Movement]:
+    """Independent ways in which a linkage can move, each of as few bodies as elimination leaves.
+
+    By Gauss-Jordan elimination of the conditions; turns of bodies are what is left free.
 
     Arguments:
         conditions: that hold; with those of driven parts these are held.
         moved: coordinates counted by arms (n,).
-        rows: in place of those of the conditions (m, n).
     """
-    rows = conditions.rows(moved) if rows is None else rows
-    return [movement(conditions, moved, rates) for rates in _null_space(rows)]
-
-
-def movement(conditions: Conditions, moved: Matrix, rates: Matrix) -> Movement:
-    """A movement in words, from the rates of all coordinates counted by arms (n,)."""
-    rates = rates / np.abs(rates).max()
-    speeds = np.abs(rates.reshape(-1, 3)).max(axis=1)
-    names = list(conditions.linkage.bodies)
-    moving = [name for name, speed in zip(names, speeds, strict=True) if speed > SEEN]
-    place, plain = moved / conditions.arms, rates / conditions.arms
-    return Movement({name: _how(conditions, place, plain, name) for name in moving}, plain)
-
-
-def _how(conditions: Conditions, place: Matrix, rates: Matrix, body: str) -> str:
-    """How a body moves: about a pin, about a point, or along a direction."""
-    i, size = conditions.kinetics.first(body), conditions.size
-    speed, spin = rates[i : i + 2], float(rates[i + 2])
-    if abs(spin) * size < SEEN * float(np.hypot(*speed)):
-        return f"shifts along {math.degrees(math.atan2(speed[1], speed[0])):.4g} degrees"
-    centre = np.array(conditions.linkage.bodies[body].centre) + place[i : i + 2]
-    pole = centre + np.array([-speed[1], speed[0]]) / spin
-    for name, pin in conditions.linkage.pins.items():
-        if body in (pin.first, pin.second):
-            point = pin.first_point if pin.first == body else pin.second_point
-            at = conditions.kinetics.point(place, body, point)[0]
-            if float(np.hypot(*(at - pole))) < SEEN * size:
-                return f"turns about pin {name}"
-    x, y = (round(1e3 * float(one), 6) + 0.0 for one in pole)
-    return f"turns about ({x:.4g}, {y:.4g}) mm"
-
-
-def _null_space(rows: Matrix) -> list[Matrix]:
-    """Vectors that rows turn into nothing, by Gauss-Jordan elimination: turns are what is left free."""
+    rows = conditions.rows(moved)
     size = rows.shape[1]
-    columns = [n for n in range(size) if n % 3 != 2] + [n for n in range(size) if n % 3 == 2]
-    left, pivots, row = rows[:, columns].copy(), list[int](), 0
+    columns = sorted(range(size), key=lambda n: n % 3 == 2)
+    left, pivots = rows[:, columns], list[int]()
     for column in range(size):
+        row = len(pivots)
         if row == len(left):
             break
         best = row + int(np.argmax(np.abs(left[row:, column])))
@@ -186,107 +151,82 @@ def _null_space(rows: Matrix) -> list[Matrix]:
         others = np.arange(len(left)) != row
         left[others] -= np.outer(left[others, column], left[row])
         pivots.append(column)
-        row += 1
     found = []
     for free in (column for column in range(size) if column not in pivots):
-        vector = np.zeros(size)
-        vector[columns[free]] = 1.0
-        for n, pivot in enumerate(pivots):
-            vector[columns[pivot]] = -left[n, free]
-        found.append(vector)
+        rates = np.zeros(size)
+        rates[columns[free]] = 1.0
+        rates[[columns[pivot] for pivot in pivots]] = -left[: len(pivots), free]
+        rates /= np.abs(rates).max()
+        bodies = {name: _how(conditions, moved, rates, name) for name in _moving(conditions, rates)}
+        found.append(Movement(bodies, rates / conditions.arms))
     return found
+
+
+def _moving(conditions: Conditions, rates: Matrix) -> list[str]:
+    """Bodies that move at rates counted by arms (n,), the largest of which is about 1."""
+    speeds = np.abs(rates.reshape(-1, 3)).max(axis=1)
+    return [name for name, speed in zip(conditions.linkage.bodies, speeds, strict=True) if speed > SEEN]
+
+
+def _how(conditions: Conditions, moved: Matrix, rates: Matrix, body: str) -> str:
+    """How a body moves: about a pin, about a point, or along a direction."""
+    i, kinetics = conditions.kinetics.first(body), conditions.kinetics
+    place, (vx, vy, spin) = moved / conditions.arms, (rates / conditions.arms)[i : i + 3].tolist()
+    if abs(spin) * conditions.size < SEEN * math.hypot(vx, vy):
+        return f"shifts along {math.degrees(math.atan2(vy, vx)):.4g} degrees"
+    pole = kinetics.point(place, body, conditions.linkage.bodies[body].centre)[0] + np.array([-vy, vx]) / spin
+    for name, pin in conditions.linkage.pins.items():
+        point = dict(pin.sides).get(body)
+        if point and math.dist(kinetics.point(place, body, point)[0], pole) < SEEN * conditions.size:
+            return f"turns about pin {name}"
+    x, y = (round(1e3 * float(one), 6) + 0.0 for one in pole)
+    return f"turns about ({x:.4g}, {y:.4g}) mm"
 
 
 # --- dead centres ---
 
 
-def in_line(conditions: Conditions, moved: Matrix, rows: Matrix) -> tuple[str, Movement]:
-    """What lies in line in a dead centre, and how the linkage can move there although it is held.
+def in_line(conditions: Conditions, moved: Matrix, rows: Matrix) -> str:
+    """What lies in line in a dead centre, in words such as "coupler in line with rocker"; empty: nothing.
 
     The least singular value of the conditions gives the movement, and forces that hold each other; bodies that
     bear them at two points, and actuators, lie along them.
 
     Arguments:
         moved: coordinates counted by arms (n,). rows: the conditions, driven parts held (m, n).
-
-    Returns words, empty if nothing lies in line, such as "coupler in line with rocker".
     """
+    linkage, motion = conditions.linkage, conditions.kinetics.motion(moved / conditions.arms)
     left, _, right = np.linalg.svd(rows)
     size = rows.shape[1]
-    loose = movement(conditions, moved, right[-1])
+    loose = _moving(conditions, right[-1] / np.abs(right[-1]).max())
     forces = left[:, size - 1] if len(rows) >= size else np.zeros(len(rows))
-    place = moved / conditions.arms
-    loaded = {
-        owner
-        for owner, force in zip(conditions.kinetics.owners(), forces, strict=True)
-        if abs(force) > LOADED * np.abs(forces).max(initial=0.0)
-    }
-    points = {
-        body: {joint: at for joint, at in found.items() if joint[:2] in loaded}
-        for body, found in _points(conditions, place).items()
-    }
-    lines: dict[str, Places] = {
-        body: found
-        for body, found in points.items()
-        if len(found) == 2 and body in loose.bodies and np.ptp(list(found.values()), axis=0).max() > 0.0
-    }
-    for kind, name in loaded:
-        if kind == "actuators":
-            one = conditions.linkage.actuators[name]
-            ends = ((one.foot, one.foot_point, "foot"), (one.head, one.head_point, "head"))
-            lines[name] = {
-                (kind, name, end): conditions.kinetics.point(place, body, point)[0] for body, point, end in ends
-            }
-    said = [
+    bearing = np.abs(forces) > LOADED * np.abs(forces).max(initial=0.0)
+    owners = conditions.kinetics.owners()
+    loaded = dict.fromkeys(owner for owner, bears in zip(owners, bearing, strict=True) if bears)
+    # by body, and by actuator, places (2,) at which it bears a force, by joint and end
+    points: dict[str, dict[tuple[str, str], Matrix]] = {name: {} for name in (GROUND, *linkage.bodies)}
+    struts: dict[str, dict[tuple[str, str], Matrix]] = {}
+    for part, name in loaded:
+        for n, (body, point) in enumerate(linkage.joints.get((part, name), ())):
+            end = name, part if part == "pins" else f"{part}{n}"
+            if part != "slides" or n == 0:
+                points[body][end] = motion.place(body, point)[0]
+            if part == "actuators":
+                struts.setdefault(name, {})[end] = points[body][end]
+    ends = {body: points[body] for body in linkage.bodies if body in loose and len(points[body]) == 2} | struts
+    ways = {name: np.subtract(*reversed(line.values())) for name, line in ends.items()}
+    lines = {name: way / np.hypot(*way) for name, way in ways.items() if np.any(way)}
+    words = [
         f"{first} in line with {second}"
-        for n, first in enumerate(lines)
-        for second in list(lines)[n + 1 :]
-        if set(lines[first]) & set(lines[second]) and _parallel(lines[first], lines[second])
+        for first, second in combinations(lines, 2)
+        if ends[first].keys() & ends[second].keys()
+        and abs(lines[first][0] * lines[second][1] - lines[first][1] * lines[second][0]) < STRAIGHT
     ]
-    guides = {
-        name: slide
-        for name, slide in conditions.linkage.slides.items()
-        if ("slides", name) in loaded and slide.body in loose.bodies
-    }
-    said += [
-        f"{body} across guide {name}"
-        for body, line in lines.items()
-        for name, slide in guides.items()
-        if set(line) & set(points[slide.body]) and _across(conditions, place, line, name)
-    ]
-    return " and ".join(said), loose
-
-
-def _points(conditions: Conditions, place: Matrix) -> dict[str, Places]:
-    """By body, where its pins, ends of actuators and guides are, each by field, name and end."""
-    linkage, kinetics = conditions.linkage, conditions.kinetics
-    found: dict[str, Places] = {name: {} for name in (GROUND, *linkage.bodies)}
-    for name, pin in linkage.pins.items():
-        for body, point in ((pin.first, pin.first_point), (pin.second, pin.second_point)):
-            found[body]["pins", name, ""] = kinetics.point(place, body, point)[0]
-    for name, one in linkage.actuators.items():
-        found[one.foot]["actuators", name, "foot"] = kinetics.point(place, one.foot, one.foot_point)[0]
-        found[one.head]["actuators", name, "head"] = kinetics.point(place, one.head, one.head_point)[0]
-    for name, slide in linkage.slides.items():
-        found[slide.body]["slides", name, ""] = kinetics.point(place, slide.body, slide.point)[0]
-    return found
-
-
-def _direction(line: Places) -> Matrix:
-    first, second = line.values()
-    way: Matrix = second - first
-    return way / float(np.hypot(*way))
-
-
-def _parallel(one: Places, other: Places) -> bool:
-    (x, y), (u, v) = _direction(one), _direction(other)
-    return bool(abs(x * v - y * u) < STRAIGHT)
-
-
-def _across(conditions: Conditions, place: Matrix, line: Places, name: str) -> bool:
-    slide = conditions.linkage.slides[name]
-    carried = 0.0 if slide.against == GROUND else place[conditions.kinetics.first(slide.against) + 2]
-    x, y = _direction(line)
-    return bool(
-        abs(x * math.cos(slide.direction + carried) + y * math.sin(slide.direction + carried)) < STRAIGHT
-    )
+    for body, line in lines.items():
+        for part, name in loaded:
+            slide = linkage.slides[name] if part == "slides" else None
+            if slide is None or slide.body not in loose or not ends[body].keys() & points[slide.body].keys():
+                continue
+            if abs(float(line @ motion.sliding(slide)[0][0])) < STRAIGHT:
+                words.append(f"{body} across guide {name}")
+    return " and ".join(words)

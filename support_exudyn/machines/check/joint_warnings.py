@@ -23,19 +23,18 @@ def joint_warnings(linkage: Linkage, moments: Mapping[str, float] = NONE) -> Ite
         linkage: the mechanism.
         moments: largest moments of gears on their second wheels [N m], by name, as far as they are known.
     """
-    ends = [(one.first, one.second) for one in linkage.pins.values()]
-    ends += [(one.body, one.against) for one in linkage.slides.values()]
+    pairs = [(a, b) for (part, _), ((a, _), (b, _)) in linkage.joints.items() if part != "actuators"]
     for name, crank in linkage.cranks.items():
-        beside = [other for pair in ends if crank.body in pair for other in pair if other != crank.body]
-        if GROUND not in beside:
+        others = dict.fromkeys(
+            body for pair in pairs if crank.body in pair for body in pair if body != crank.body
+        )
+        if GROUND not in others:
             yield (
                 f'cranks.{name}: turns {crank.body} against the ground (on = "ground"), and not against '
-                f"{' or '.join(dict.fromkeys(beside)) or 'another body'}; motors between two moving bodies are "
-                "not covered"
+                f"{' or '.join(others) or 'another body'}; motors between two moving bodies are not covered"
             )
     for name, gear in linkage.gears.items():
-        radius, moment = linkage.pitch_radius(gear), moments.get(name)
-        known = []
+        radius, moment, known = linkage.pitch_radius(gear), moments.get(name), []
         if moment is not None:
             known.append(f"moment up to {abs(moment):.4g} N m")
         if radius is not None:
@@ -56,7 +55,7 @@ def guide_warnings(motion: BodyMotion) -> Iterator[str]:
     """Warnings on guided points that pass an end of their lines in a motion, and on slots without ends."""
     for name, slide in motion.linkage.slides.items():
         if slide.turns and slide.ends is None:
-            said = moves_along(motion, slide)
+            said = _range_along(motion, slide)
             yield f"guides.{name}: {said}; its ends are not known; allowed: along = [point, point]"
         beyond = 1e3 * motion.past_ends(slide).max(initial=0.0)
         if beyond > 0.0:
@@ -67,7 +66,7 @@ def guide_warnings(motion: BodyMotion) -> Iterator[str]:
             )
 
 
-def moves_along(motion: BodyMotion, slide: Slide) -> str:
+def _range_along(motion: BodyMotion, slide: Slide) -> str:
     """The range of a guided point along its line, from where it starts."""
     along = np.round(1e3 * motion.along(slide), 6) + 0.0
     return f"{slide.body} moves from {along.min():.4g} to {along.max():.4g} mm along its line"
@@ -78,9 +77,8 @@ def of_joints(linkage: Linkage, moved: Sequence[Moved]) -> tuple[list[str], list
     facts = [f'{k}: turns {one.body} against the ground (on = "ground")' for k, one in linkage.cranks.items()]
     if not moved:
         return facts, list(joint_warnings(linkage))
-    still = np.zeros((len(moved), 3 * len(linkage.bodies)))
-    motion = BodyMotion(linkage, np.array([one.position for one in moved]), still)
-    for name, slide in linkage.slides.items():
-        facts.append(f"guides.{name}: {moves_along(motion, slide)}")
+    position = np.array([one.position for one in moved])
+    motion = BodyMotion(linkage, position, np.zeros_like(position))
+    facts += [f"guides.{name}: {_range_along(motion, slide)}" for name, slide in linkage.slides.items()]
     moments = {name: max(abs(one.forces.gears[name]) for one in moved) for name in linkage.gears}
     return facts, [*joint_warnings(linkage, moments), *guide_warnings(motion)]

@@ -6,16 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from support_exudyn.machines.check.drive_way import TURN, DriveWay, Moved, way_of
-from support_exudyn.machines.check.freedoms import (
-    SHARED,
-    Movement,
-    RepeatedConditions,
-    floating,
-    listed,
-    movements,
-    repeated,
-)
+from support_exudyn.machines.check.drive_way import TURN, DriveWay, Moved, WayPoint, way_of
+from support_exudyn.machines.check.freedoms import SHARED, Movement, floating, listed, movements, repeated
 from support_exudyn.machines.check.joint_warnings import of_joints
 from support_exudyn.machines.check.report import CheckReport, CheckTable
 from support_exudyn.machines.check.statics import mobility, statics
@@ -30,11 +22,10 @@ from support_exudyn.machines.four_bar_shield import FourBarShield
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.mechanics.closing import Conditions, beside
 from support_exudyn.model.linkage import GROUND, Linkage
-from support_exudyn.model.loads.load import ActingLoad
 from user_forces.values.value import InputError
 
 STEPS, TOLD = 180, 12  # postures to each end of a way, and rows of its table less one
-STEPS_OF_SEVERAL, TOLD_OF_SEVERAL = 60, 6  # the same where several parts are driven
+STEPS_OF_SEVERAL = 60  # the same where several parts are driven
 STEPS_OF_SUPPORTS, TOLD_OF_SUPPORTS = 100, 10  # the same of supports
 SHARE = 0.3  # of an actuator's length: its stroke either way where none is known
 OPEN = 1e-9  # of the machine's size: gap at the start that is reported
@@ -59,7 +50,7 @@ def check_machine(data: MachineData, stroke: float | None = None) -> CheckReport
     if stroke is not None and not (len(driven) == 1 and driven[0][0] in linkage.actuators):
         raise InputError(f"stroke = {stroke} m: no single actuator drives this machine; allowed: none")
     conditions = Conditions(linkage if support is None else support.led_linkage())
-    start = np.zeros(3 * len(linkage.bodies))
+    start = conditions.still
     loose = movements(conditions, start)
     aside = beside(conditions, [one.rates * conditions.arms for one in loose])
     singular = len(movements(conditions, aside)) < len(loose)
@@ -67,39 +58,62 @@ def check_machine(data: MachineData, stroke: float | None = None) -> CheckReport
     used = stroke or data.stroke or (support.usual_stroke if support else None)
     steps = STEPS_OF_SUPPORTS if support else STEPS_OF_SEVERAL if len(driven) > 1 else STEPS
     farther, count = (FARTHER * support.shortest_column, TOLD_OF_SUPPORTS) if support else (0.0, TOLD)
-    ways: list[DriveWay] = []
-    if not loose and not any(one.driven for one in again):
-        goals = [_goal(linkage, one[0], used) for one in driven]
-        ways = [
-            way_of(conditions, linkage, one, goal, steps, loads, farther)
-            for one, goal in zip(driven, goals, strict=True)
-        ]
+    ways = [
+        way_of(conditions, linkage, one, _goal(linkage, one[0], used), steps, loads, farther)
+        for one in driven
+        if not loose and not any(repeat.driven for repeat in again)
+    ]
     at_rest = Moved(0.0, start, statics(linkage, start, loads=loads))
+    moved = [one for way in ways for one in way.moved] or ([] if loose else [at_rest])
     transmission = {way.drive: list(transmission_angles(conditions, way)) for way in ways}
     found = support_findings(data, support, ways[0]) if support and ways else Findings()
+    freedom, gaps = mobility(linkage), _gaps(conditions, linkage)
+
+    facts = [freedom.said()]
+    if gaps:
+        facts.append(f"closure at the start: pins within {1e3 * max(gaps.values()):.1e} mm")
+    warnings = [
+        f"pins.{name}: its two points are {1e3 * gap:.3g} mm apart at the start"
+        for name, gap in gaps.items()
+        if gap > OPEN * conditions.size
+    ]
+    warnings += [one.said() + ("" if one.driven else f"; {SHARED}") for one in again]
+    acted = {body for name, one in loads.items() for body in (one.body, one.against(name))}
+    under_loads = bool(loads) and all(set(one.bodies) & acted for one in loose)
+    warned = singular or (linkage.driven and not under_loads)
+    (warnings if warned else facts).extend(_freedoms(linkage, loose, singular, under_loads))
+    of_parts, doubts = of_joints(linkage, moved)
+    facts, warnings = [*facts, *of_parts], [*warnings, *data.warnings, *doubts]
+    for way in ways:
+        of_way, doubts = _way_sentences(way, transmission[way.drive])
+        facts, warnings = [*facts, *of_way], [*warnings, *doubts]
+    if any(transmission.values()):
+        facts.append(DEFINITION)
+    if moved:
+        error = float(np.median([one.forces.error for one in moved]))  # at a dead centre forces have no bound
+        under = f"weight and {listed(list(loads))}, once come on" if loads else "weight alone"
+        facts.append(f"static forces: under {under}; numerical error below {max(error, 1e-12):.0e} N")
     numbers = {
-        "degrees_of_freedom": mobility(linkage).data(),
-        "closure_m": _gaps(conditions, linkage),
+        "degrees_of_freedom": freedom.data(),
+        "closure_m": gaps,
         "movements": [one.data() for one in loose],
-        **_numbers(linkage, ways, transmission, [] if loose else [at_rest], count),
+        **_numbers(conditions, linkage, ways, transmission, [] if loose else [at_rest], count),
         "repeated_conditions": [[f"{kind}.{name}" for kind, name in one.parts] for one in again],
         **({"stroke_m": used} if used is not None and not linkage.cranks else {}),
         **found.numbers,
         "file_numbers": {key: one.data() for key, one in data.sourced.items()},
     }
-    moved = [one for way in ways for one in way.moved] or ([] if loose else [at_rest])
-    facts, warnings = _sentences(data, conditions, moved, again, loose, singular)
-    for way in ways:
-        angles = transmission[way.drive]
-        facts += [*_way_facts(way), *(one.said(way) for one in angles)]
-        warnings += [*_way_warnings(way), *_poor_angles(way, angles)]
     return CheckReport(
         name=data.name,
         kind=data.kind or type(machine).__name__,
-        facts=[*facts, *[DEFINITION] * any(transmission.values()), *_static_facts(loads, moved), *found.facts],
+        facts=[*facts, *found.facts],
         sheets=[*_sheets(ways, numbers), *_sourced(data)],
         warnings=[*warnings, *found.warnings],
-        notes=[*_notes(data, linkage, ways, stroke), *found.notes, *_sources(data)],
+        notes=[
+            *_notes(data, ways, stroke),
+            *found.notes,
+            *(f"source of {k}: {v}" for k, v in data.sources.items()),
+        ],
         numbers=numbers,
         linkage=linkage,
         start=at_rest,
@@ -120,66 +134,13 @@ def _goal(linkage: Linkage, drive: str, stroke: float | None) -> tuple[float, fl
     return min(0.0, stroke), max(0.0, stroke)
 
 
-def _stations(way: DriveWay, count: int) -> list[Moved]:
-    """The postures of a table: the first, the last, and so many more less one between."""
-    near = 1e-6 * (way.ends[1] - way.ends[0])
-    singular = [one.travel for one in way.points if one.what != "turns back"]  # where forces have no bound
-    moved = [one for one in way.moved if all(abs(one.travel - end) > near for end in singular)] or way.moved
-    chosen = dict.fromkeys(round(n) for n in np.linspace(0, len(moved) - 1, min(len(moved), count + 1)))
-    return [moved[n] for n in chosen]
+def _gaps(conditions: Conditions, linkage: Linkage) -> dict[str, float]:
+    """How far the two points of each pin are apart at the start [m]."""
+    gaps = {name: conditions.kinetics.relative(conditions.still, pin)[0] for name, pin in linkage.pins.items()}
+    return {name: float(np.hypot(*gap)) for name, gap in gaps.items()}
 
 
 # --- sentences ---
-
-
-def _sentences(
-    data: MachineData,
-    conditions: Conditions,
-    moved: Sequence[Moved],
-    again: Sequence[RepeatedConditions],
-    loose: Sequence[Movement],
-    singular: bool,
-) -> tuple[list[str], list[str]]:
-    """Facts and warnings on the linkage.
-
-    Arguments:
-        moved: postures in which forces are known.
-        again: conditions that repeat others.
-        loose: movements with all driven parts held; singular: they end beside the start posture.
-    """
-    linkage, loads = data.machine.linkage(), data.machine.loads
-    opened = _gaps(conditions, linkage)
-    facts, warnings = [mobility(linkage).said()], []
-    if opened:
-        facts.append(f"closure at the start: pins within {1e3 * max(opened.values()):.1e} mm")
-    warnings += [
-        f"pins.{name}: its two points are {1e3 * gap:.3g} mm apart at the start"
-        for name, gap in opened.items()
-        if gap > OPEN * conditions.size
-    ]
-    warnings += [one.said() + ("" if one.driven else f"; {SHARED}") for one in again]
-    acted = {body for name, one in loads.items() for body in (one.body, one.against(name))}
-    under_loads = bool(loads) and all(set(one.bodies) & acted for one in loose)
-    freedoms = _freedoms(linkage, loose, singular, under_loads)
-    warned = singular or (linkage.driven and not under_loads)
-    (warnings if warned else facts).extend(freedoms)
-    more, doubts = of_joints(linkage, moved)
-    return [*facts, *more], [*warnings, *data.warnings, *doubts]
-
-
-def _static_facts(loads: Mapping[str, ActingLoad], moved: Sequence[Moved]) -> Iterator[str]:
-    """Under what the static forces are, if there are any, and how exact."""
-    if moved:
-        error = float(np.median([one.forces.error for one in moved]))  # at a dead centre forces have no bound
-        under = f"weight and {listed(list(loads))}, once come on" if loads else "weight alone"
-        yield f"static forces: under {under}; numerical error below {max(error, 1e-12):.0e} N"
-
-
-def _gaps(conditions: Conditions, linkage: Linkage) -> dict[str, float]:
-    """How far the two points of each pin are apart at the start [m]."""
-    start = np.zeros(3 * len(linkage.bodies))
-    gaps = {name: conditions.kinetics.relative(start, pin)[0] for name, pin in linkage.pins.items()}
-    return {name: float(np.hypot(*gap)) for name, gap in gaps.items()}
 
 
 def _freedoms(linkage: Linkage, loose: Sequence[Movement], singular: bool, under_loads: bool) -> Iterator[str]:
@@ -187,8 +148,8 @@ def _freedoms(linkage: Linkage, loose: Sequence[Movement], singular: bool, under
     groups = floating(linkage)
     for group in groups:
         yield f"bodies.{listed(group)}: nothing joins {'it' if len(group) == 1 else 'them'} to the ground"
-    hanging = [name for group in groups for name in group]
-    loose = [one for one in loose if not set(one.bodies) <= set(hanging)]
+    hanging = {name for group in groups for name in group}
+    loose = [one for one in loose if not one.bodies.keys() <= hanging]
     if not loose:
         return
     ways = "; ".join(one.said() for one in loose)
@@ -210,79 +171,59 @@ def _freedoms(linkage: Linkage, loose: Sequence[Movement], singular: bool, under
         )
 
 
-def _way_facts(way: DriveWay) -> Iterator[str]:
-    """How far driven parts move the linkage, and where parts turn back on the way."""
+def _way_sentences(way: DriveWay, angles: Sequence[TransmissionAngle]) -> tuple[list[str], list[str]]:
+    """Facts and warnings on how far driven parts move the linkage, and on its transmission angles."""
     low, high = (way.shown(end) for end in way.ends)
+    without = "" if way.locks else " without a dead centre"
+    facts, warnings = [f"{way.drive}: moves from {low:.2f} to {high:.2f} {way.unit}{without}"], []
     if way.right_round:
-        yield f"{way.drive}: turns right round, without a dead centre"
-    else:
-        without = "" if way.locks else " without a dead centre"
-        yield f"{way.drive}: moves from {low:.2f} to {high:.2f} {way.unit}{without}"
+        facts = [f"{way.drive}: turns right round, without a dead centre"]
     for one in way.points:
+        where = way.at(one.travel)
         if one.what == "turns back":
-            yield f"{way.at(one.travel)}: {one.part} turns back{_why(one.why)}"
-    for end, limit in zip(way.ends, way.beyond, strict=True):
-        if limit is not None:
-            yield _limit(way, end, limit.travel, limit.why)
-
-
-def _way_warnings(way: DriveWay) -> Iterator[str]:
-    for one in way.points:
-        if one.what == "dead centre":
-            yield f"{way.at(one.travel)}: dead centre{_why(one.why)}; the linkage locks or opens there"
-        if one.what == "change point":
-            yield (
-                f"{way.at(one.travel)}: change point{_why(one.why)}; from there the linkage could go on in "
-                "another way"
+            facts.append(f"{where}: {one.part} turns back{one.reason}")
+        elif one.what == "dead centre":
+            warnings.append(f"{where}: dead centre{one.reason}; the linkage locks or opens there")
+        else:
+            warnings.append(
+                f"{where}: change point{one.reason}; from there the linkage could go on in another way"
             )
     for end, limit in zip(way.ends, way.beyond, strict=True):
-        if limit is not None and not way.locks and abs(limit.travel - end) < NEAR:
-            yield _limit(way, end, limit.travel, limit.why)
+        if limit is not None:
+            facts.append(_limit(way, end, limit))
+            if not way.locks and abs(limit.travel - end) < NEAR:
+                warnings.append(_limit(way, end, limit))
+    least = math.degrees(LEAST)
+    for angle in angles:
+        facts.append(angle.said(way))
+        if angle.worst < LEAST:
+            warnings.append(
+                f"{angle.said(way)}; {least:.0f} to {180.0 - least:.0f} degrees are usual: nearer to a "
+                "straight line forces grow, and play is felt"
+            )
+    return facts, warnings
 
 
-def _limit(way: DriveWay, end: float, travel: float, why: str) -> str:
+def _limit(way: DriveWay, end: float, limit: WayPoint) -> str:
     """The dead centre beyond an end of a way in a sentence."""
-    side = "above" if travel >= end else "below"
+    side = "above" if limit.travel >= end else "below"
     return (
-        f"{1e3 * abs(travel - end):.1f} mm of travel {side} the used range: dead centre{_why(why)} "
-        f"({way.at(travel)})"
+        f"{1e3 * abs(limit.travel - end):.1f} mm of travel {side} the used range: dead centre{limit.reason} "
+        f"({way.at(limit.travel)})"
     )
 
 
-def _why(reason: str) -> str:
-    return f": {reason}" if reason else ""
-
-
-def _poor_angles(way: DriveWay, angles: Sequence[TransmissionAngle]) -> Iterator[str]:
-    """Warnings of transmission angles that come near a straight line on a way."""
-    least = math.degrees(LEAST)
-    for one in angles:
-        if one.worst < LEAST:
-            yield (
-                f"{one.said(way)}; {least:.0f} to {180.0 - least:.0f} degrees are usual: nearer to a straight "
-                "line forces grow, and play is felt"
-            )
-
-
-def _notes(
-    data: MachineData, linkage: Linkage, ways: Sequence[DriveWay], stroke: float | None
-) -> Iterator[str]:
+def _notes(data: MachineData, ways: Sequence[DriveWay], stroke: float | None) -> Iterator[str]:
     """Assumptions."""
-    for said in data.assumed:
-        yield f"assumed: {said}"
+    yield from (f"assumed: {said}" for said in data.assumed)
     if len(ways) > 1:
         yield "several parts are driven: the way of each is that with the others held where they start"
-    tried = [way.drive for way in ways if way.drives[0] in linkage.actuators]
+    tried = [way.drive for way in ways if not way.turns]
     if tried and stroke is None and data.stroke is None:
         yield (
             f"no stroke is known of {listed(tried)}: {100.0 * SHARE:.0f} % of the length at the start were "
             "tried"
         )
-
-
-def _sources(data: MachineData) -> Iterator[str]:
-    for name, said in data.sources.items():
-        yield f"source of {name}: {said}"
 
 
 # --- tables and numbers ---
@@ -296,21 +237,17 @@ def _sheets(ways: Sequence[DriveWay], numbers: Mapping[str, Any]) -> Iterator[Ch
         rows = [(f"{way.shown(one['travel']):.1f}", one) for one in numbers["drives"][way.drive]["stations"]]
         first = f"{way.label} [{way.unit}]"
         if len(ways) == 1:
-            yield _postures(first, rows)
+            one = rows[0][1]
+            heads = [f"{name} {axis}" for name in one["points_m"] for axis in "xy"]
+            heads += [*one["angles_rad"], *(f"{name} [mm]" for name in one["lengths_m"])]
+            table = []
+            for where, one in rows:
+                cells = [f"{round(1e3 * x, 1) + 0.0:.1f}" for point in one["points_m"].values() for x in point]
+                cells += [f"{round(math.degrees(turn), 2) + 0.0:.2f}" for turn in one["angles_rad"].values()]
+                cells += [f"{1e3 * length:.1f}" for length in one["lengths_m"].values()]
+                table.append((where, *cells))
+            yield CheckTable("postures: points [mm], bodies [degrees from +x]", (first, *heads), table)
         yield _forces(first, rows)
-
-
-def _postures(first: str, rows: Sequence[tuple[str, Mapping[str, Any]]]) -> CheckTable:
-    one = rows[0][1]
-    heads = [f"{name} {axis}" for name in one["points_m"] for axis in "xy"]
-    heads += [*one["angles_rad"], *(f"{name} [mm]" for name in one["lengths_m"])]
-    table = []
-    for where, one in rows:
-        cells = [f"{round(1e3 * x, 1) + 0.0:.1f}" for point in one["points_m"].values() for x in point]
-        cells += [f"{round(math.degrees(angle), 2) + 0.0:.2f}" for angle in one["angles_rad"].values()]
-        cells += [f"{1e3 * length:.1f}" for length in one["lengths_m"].values()]
-        table.append((where, *cells))
-    return CheckTable("postures: points [mm], bodies [degrees from +x]", (first, *heads), table)
 
 
 def _forces(first: str, rows: Sequence[tuple[str, Mapping[str, Any]]]) -> CheckTable:
@@ -337,6 +274,7 @@ def _sourced(data: MachineData) -> Iterator[CheckTable]:
 
 
 def _numbers(
+    conditions: Conditions,
     linkage: Linkage,
     ways: Sequence[DriveWay],
     transmission: Mapping[str, Sequence[TransmissionAngle]],
@@ -344,50 +282,42 @@ def _numbers(
     count: int,
 ) -> dict[str, Any]:
     """The ways of driven parts as plain data, or the start posture; count: of postures less one of a way."""
-    drives = {
-        way.drive: {
+    drives = {}
+    for way in ways:
+        near = 1e-6 * (way.ends[1] - way.ends[0])
+        singular = [one.travel for one in way.points if one.what != "turns back"]  # where forces have no bound
+        moved = [one for one in way.moved if all(abs(one.travel - end) > near for end in singular)] or way.moved
+        chosen = dict.fromkeys(round(n) for n in np.linspace(0, len(moved) - 1, min(len(moved), count + 1)))
+        drives[way.drive] = {
             **way.data(),
             "transmission_angles": [one.data() for one in transmission[way.drive]],
-            "stations": [_data(linkage, one) for one in _stations(way, count)],
+            "stations": [_station(conditions, linkage, moved[n]) for n in chosen],
         }
-        for way in ways
-    }
     sole = ways[0] if len(ways) == 1 else None
+    rest = [_station(conditions, linkage, one) for one in start]
     return {
         "drive": sole.drive if sole else "",
         "cranks": {name: {"body": one.body, "on": GROUND} for name, one in linkage.cranks.items()},
         "locks": any(way.locks for way in ways),
         "travel": list(sole.ends) if sole else [0.0, 0.0],
-        "stations": drives[sole.drive]["stations"] if sole else [_data(linkage, one) for one in start],
+        "stations": drives[sole.drive]["stations"] if sole else rest,
         "drives": drives,
     }
 
 
-def _posture(linkage: Linkage, one: Moved) -> dict[str, Any]:
-    """Traced points, angles of bodies, lengths and angles of actuators in a posture."""
-    closed = Conditions(linkage).kinetics
-    points = {name: closed.point(one.position, it.body, it.point)[0] for name, it in linkage.points.items()}
-    struts = {
-        name: closed.point(one.position, it.head, it.head_point)[0]
-        - closed.point(one.position, it.foot, it.foot_point)[0]
-        for name, it in linkage.actuators.items()
-    }
+def _station(conditions: Conditions, linkage: Linkage, one: Moved) -> dict[str, Any]:
+    """Traced points, angles of bodies, lengths and angles of actuators in a posture, and the forces there."""
+    motion, forces = conditions.kinetics.motion(one.position), one.forces
+    struts = {name: motion.span(it)[0] for name, it in linkage.actuators.items()}
     turns = one.position[2::3].tolist()
     return {
-        "points_m": {name: point.tolist() for name, point in points.items()},
+        "travel": one.travel,
+        "points_m": {name: motion.place(it.body, it.point)[0].tolist() for name, it in linkage.points.items()},
         "angles_rad": {
             name: body.angle + turn for (name, body), turn in zip(linkage.bodies.items(), turns, strict=True)
         },
         "lengths_m": {name: float(np.hypot(*strut)) for name, strut in struts.items()},
         "actuators_rad": {name: math.atan2(strut[1], strut[0]) for name, strut in struts.items()},
-    }
-
-
-def _data(linkage: Linkage, one: Moved) -> dict[str, Any]:
-    forces = one.forces
-    return {
-        "travel": one.travel,
-        **_posture(linkage, one),
         "pins_N": {name: force.tolist() for name, force in forces.pins.items()},
         "actuators_N": forces.actuators,
         "cranks_N_m": forces.cranks,

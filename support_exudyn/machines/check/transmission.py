@@ -10,10 +10,9 @@ from typing import Any
 import numpy as np
 
 from support_exudyn.machines.check.drive_way import DriveWay
+from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.closing import Conditions, moved_on
-from support_exudyn.mechanics.kinetics import Matrix
-from support_exudyn.model.linkage import PinPlace
-from user_forces.values.value import Vector2
+from support_exudyn.mechanics.trajectory import Series
 
 LEAST = math.radians(40.0)  # below it, or above 180 degrees less it, forces are large and play is felt
 NOTHING = 1e-12  # [rad]
@@ -70,68 +69,67 @@ def transmission_angles(conditions: Conditions, way: DriveWay) -> Iterator[Trans
         for coupler, output in ((pin.first, pin.second), (pin.second, pin.first)):
             if coupler in way.resting or way.reach.get(output, -1) != way.reach.get(coupler, -3) + 1:
                 continue
-            behind = _driver_pin(way, coupler, name)
-            angle = behind and _angle_at(conditions, way, (behind, name), coupler, output)
-            if not angle:
-                continue
-            angles = [angle(one.position) for one in way.moved]
-            least, largest = (
-                _extreme(conditions, way, int(np.argmax(np.multiply(sign, angles))), angle, sign)
-                for sign in (-1.0, 1.0)
+            angle = _angle_at(way, name, coupler, output)
+            if angle:
+                angles = angle(way.motion).tolist()
+                least, largest = (_extreme(conditions, way, angles, angle, sign) for sign in (-1.0, 1.0))
+                yield TransmissionAngle(name, coupler, output, angles, least, largest)
+
+
+def _angle_at(way: DriveWay, name: str, coupler: str, output: str) -> Callable[[BodyMotion], Series] | None:
+    """What gives the angles (n,) [rad] at a pin in the postures of a motion.
+
+    None unless the coupler has a pin on a link that moves it and is joined to what rests, and the output is
+    pinned to what rests, or slides on it.
+    """
+    pins, linkage = {key: dict(pin.sides) for key, pin in way.linkage.pins.items()}, way.linkage
+    behind = None
+    for key, sides in pins.items():
+        link = next((body for body in sides if body != coupler), "") if coupler in sides and key != name else ""
+        if behind is None and link and way.reach.get(link, -3) == way.reach[coupler] - 1:
+            frame = {body for one in pins.values() if link in one for body in one} - {link}
+            frame |= {one.against for one in linkage.slides.values() if one.body == link}
+            behind = sides[coupler] if frame & {*way.resting} else None
+    if behind is None:
+        return None
+    foot, top, start = behind, pins[name][coupler], pins[name][output]
+    for sides in pins.values():
+        if output in sides and sides[output] != start and ({*sides} - {output}) & {*way.resting}:
+            end = sides[output]
+            return lambda motion: _between(
+                motion.place(coupler, foot) - motion.place(coupler, top),
+                motion.place(output, end) - motion.place(output, start),
             )
-            yield TransmissionAngle(name, coupler, output, angles, least, largest)
-
-
-def _driver_pin(way: DriveWay, coupler: str, ahead: str) -> str | None:
-    """The pin by which a coupler is moved, by a body that is joined to what rests; None if there is no such."""
-    pins, slides = way.linkage.pins.items(), way.linkage.slides.values()
-    for name, pin in pins:
-        other = _other(pin, coupler)
-        if name != ahead and other and way.reach.get(other, -3) == way.reach[coupler] - 1:
-            frame = [_other(one, other) for _, one in pins] + [
-                one.against for one in slides if one.body == other
-            ]
-            if any(one in way.resting for one in frame):
-                return name
-    return None
-
-
-def _angle_at(
-    conditions: Conditions, way: DriveWay, pins: tuple[str, str], coupler: str, output: str
-) -> Callable[[Matrix], float] | None:
-    """The angle [rad] in a posture at an output that is pinned to what rests, or slides on it; else None."""
-    linkage, kinetics = way.linkage, conditions.kinetics
-    foot, top = (_point(linkage.pins[name], coupler) for name in pins)
-
-    def line(position: Matrix, body: str, first: Vector2, second: Vector2) -> Matrix:
-        span: Matrix = kinetics.point(position, body, second)[0] - kinetics.point(position, body, first)[0]
-        return span
-
-    start = _point(linkage.pins[pins[1]], output)
-    for pin in linkage.pins.values():
-        if _other(pin, output) in way.resting and _point(pin, output) != start:
-            end = _point(pin, output)
-            return lambda at: _between(line(at, coupler, top, foot), line(at, output, start, end))
     for slide in linkage.slides.values():
         if slide.body == output and slide.against in way.resting:
-            normal = np.array([-math.sin(slide.direction), math.cos(slide.direction)])
+            normal = np.array([[-math.sin(slide.direction), math.cos(slide.direction)]])
 
-            def to_normal(position: Matrix, normal: Matrix = normal) -> float:
-                angle = _between(line(position, coupler, top, foot), normal)
-                return min(angle, math.pi - angle)
+            def to_normal(motion: BodyMotion, normal: Series = normal) -> Series:
+                angles = _between(motion.place(coupler, foot) - motion.place(coupler, top), normal)
+                return np.minimum(angles, math.pi - angles)
 
             return to_normal
     return None
 
 
+def _between(one: Series, other: Series) -> Series:
+    """Angles between lines (n, 2) [rad], 0 to pi."""
+    (x, y), (u, v) = one.T, other.T
+    return np.abs(np.arctan2(x * v - y * u, x * u + y * v))
+
+
 def _extreme(
-    conditions: Conditions, way: DriveWay, number: int, angle: Callable[[Matrix], float], sign: float
+    conditions: Conditions,
+    way: DriveWay,
+    angles: Sequence[float],
+    angle: Callable[[BodyMotion], Series],
+    sign: float,
 ) -> tuple[float, float]:
-    """Travel and value of an extreme that lies about a posture; sign: 1 of the largest, -1 of the least."""
+    """Travel and value of an extreme over a way; sign: 1 of the largest, -1 of the least."""
     from scipy.optimize import minimize_scalar  # slow to import
 
-    near = way.moved[number]
-    value = angle(near.position)
+    number = int(np.argmax(np.multiply(sign, angles)))
+    near, value = way.moved[number], angles[number]
     between = [one.travel for one in way.moved[max(number - 1, 0) : number + 2]]
     if len(between) < 2:
         return near.travel, value
@@ -141,25 +139,13 @@ def _extreme(
         along = (way.moved[other].position - near.position) * conditions.arms
         start, travels = near.position * conditions.arms, dict.fromkeys(way.drives, travel)
         moved = moved_on(conditions, start, travels, along)[0]
-        return angle(moved / conditions.arms)
+        return float(angle(conditions.kinetics.motion(moved / conditions.arms))[0])
 
     found = minimize_scalar(
-        lambda travel: -sign * at(travel), bounds=(between[0], between[-1]), method="bounded",
+        lambda travel: -sign * at(travel),
+        bounds=(between[0], between[-1]),
+        method="bounded",
         options={"xatol": 1e-9 * max(map(abs, between))},
-    )  # fmt: skip
+    )
     better = float(-sign * found.fun)
     return (float(found.x), better) if sign * (better - value) > NOTHING else (near.travel, value)
-
-
-def _other(pin: PinPlace, body: str) -> str:
-    """The other body of a pin; empty if it does not hold this one."""
-    return {pin.first: pin.second, pin.second: pin.first}.get(body, "")
-
-
-def _point(pin: PinPlace, body: str) -> Vector2:
-    return pin.first_point if pin.first == body else pin.second_point
-
-
-def _between(one: Matrix, other: Matrix) -> float:
-    """Angle between two lines [rad], 0 to pi."""
-    return float(abs(math.atan2(one[0] * other[1] - one[1] * other[0], float(one @ other))))

@@ -17,14 +17,20 @@ from support_exudyn.machines.strength.parts import (
     tipping_of,
 )
 from support_exudyn.machines.strength.results import Buckling, PinLoad, StandReport, SupportForce
-from support_exudyn.machines.strength.roof_forces import Limits, RoofForce, RoofStatics
+from support_exudyn.machines.strength.roof_forces import (
+    Limits,
+    RoofForce,
+    RoofStatics,
+    UsedPosture,
+    legs_of,
+    used_postures,
+)
 from support_exudyn.machines.strength.strength_data import (
     EYE_YIELD,
     PIN_YIELD,
     CylinderStrength,
     StrengthData,
 )
-from support_exudyn.machines.strength.used_postures import UsedPosture, legs_of, used_postures
 from user_forces.values.value import InputError
 
 __all__ = ["FACTORS", "FRICTION", "StandReport", "stand"]
@@ -40,67 +46,96 @@ def stand(data: MachineData) -> StandReport:
 
     Raises InputError where these are missing, or its forces cannot be told by statics in the plane.
     """
-    strength = checked(data)
-    told = used_postures(data, POSTURES)
+    strength = _checked(data)
+    cylinders, linkage = strength.cylinders, data.machine.linkage()
+    postures = used_postures(data, POSTURES)
     statics = {
-        mu: [RoofStatics(one.linkage, strength.canopy, mu) for one in told] for mu in (0.0, -FRICTION, FRICTION)
+        mu: [RoofStatics(one.linkage, strength.canopy, mu) for one in postures]
+        for mu in (0.0, -FRICTION, FRICTION)
     }
     if statics[0.0][-1].contact.height < statics[0.0][0].contact.height:
-        told, statics = told[::-1], {mu: every[::-1] for mu, every in statics.items()}
-    linkage = data.machine.linkage()
+        postures, statics = postures[::-1], {mu: every[::-1] for mu, every in statics.items()}
     legs, pins = legs_of(linkage), {name: pin_data(data, name) for name in linkage.pins}
-    for every in statics.values():
-        _check_held(every, limits(strength.cylinders, legs))
-    buckling, unbuckled = _buckling(told, strength.cylinders)
+    within = {factor: _limits(cylinders, legs, factor) for factor in FACTORS}
+    _check_held([one for every in statics.values() for one in every], within[1.0])
+    forces = [
+        _support_force(one.stroke, {mu: every[n] for mu, every in statics.items()}, cylinders, legs)
+        for n, one in enumerate(postures)
+    ]
+    # by factor on the yield forces and by friction, the largest force in each pin under any roof force
+    worst = {
+        factor: {
+            mu: _largest([(one, roof) for one in every for roof in one.corners(limits)])
+            for mu, every in statics.items()
+        }
+        for factor, limits in within.items()
+    }
+    nominal = {
+        factor: _largest([(one, one.balancing(_pushes(cylinders, legs, factor))) for one in statics[0.0]])
+        for factor in FACTORS
+    }
+    loads = {}
+    for name, known in pins.items():
+        smooth = {factor: every[0.0][name] for factor, every in worst.items()}
+        rubbed = {factor: max(one[name] for one in every.values()) for factor, every in worst.items()}
+        judged = [stresses(known[0], known[1], one[FACTORS[1]]) for one in (smooth, rubbed) if known]
+        loads[name] = PinLoad(
+            nominal={factor: every.get(name, math.nan) for factor, every in nominal.items()},
+            worst=smooth,
+            rubbed=rubbed,
+            stresses=(judged[0], judged[1]) if judged else None,
+            yields=known and known[0].yields,
+            assumed=known is not None and known[2],
+        )
+    masses = [cylinder_masses(data, one.linkage) for one in postures]
+    bases = [] if strength.base is None else [strength.base] * len(postures)
     rated = strength.rated_force
     return StandReport(
         name=data.name,
         kind=data.kind,
-        cylinders=strength.cylinders,
+        cylinders=cylinders,
         legs=legs,
-        forces=[
-            _support_force(
-                one.stroke, {mu: every[n] for mu, every in statics.items()}, strength.cylinders, legs
-            )
-            for n, one in enumerate(told)
-        ],
-        rated=rated or math.fsum(strength.cylinders[name].push for name in legs),
+        forces=forces,
+        rated=rated or math.fsum(cylinders[name].push for name in legs),
         rated_is_assumed=rated is None,
-        pins={name: _pin_load(name, one, statics, strength.cylinders, legs) for name, one in pins.items()},
+        pins=loads,
         unknown_pins=[name for name, one in pins.items() if one is None],
-        buckling=buckling,
-        unbuckled=unbuckled,
-        tipping=None
-        if strength.base is None
-        else [tipping_of(one.linkage, strength.base, cylinder_masses(data, one.linkage)) for one in told],
+        buckling=_buckling(postures, cylinders),
+        unbuckled={name: "its stages are not known" for name, one in cylinders.items() if not one.stages},
+        tipping=[tipping_of(one.linkage, *rest) for one, *rest in zip(postures, bases, masses, strict=False)]
+        or None,
         assumed=list(_assumed(data, strength, pins)),
         sources=list(_sources(data)),
     )
 
 
-# --- sections ---
-
-
-def checked(data: MachineData) -> StrengthData:
+def _checked(data: MachineData) -> StrengthData:
     """The strength data of a machine.
 
     Raises InputError unless they are there and fit to the machine.
     """
-    linkage = data.machine.linkage()
+    linkage, strength = data.machine.linkage(), data.strength
     if not linkage.actuators:
         raise InputError("machine: it has no actuators that could carry a roof; allowed: legs or columns")
-    if data.strength is None:
+    if strength is None:
         raise InputError(
             "strength: missing; bores and yield pressures tell what the legs stand; allowed: a table "
             "[strength.cylinders.NAME] with bore_mm and yield_pressure_MPa for each of "
             f"{', '.join(linkage.actuators)}"
         )
-    strength = data.strength
-    _check_names("strength.cylinders", strength.cylinders, linkage.actuators)
-    _check_names("strength.pins", strength.pins, linkage.pins)
-    missing = [name for name in linkage.actuators if name not in strength.cylinders]
-    if missing:
-        raise InputError(f"strength.cylinders.{missing[0]}: missing; allowed: bore_mm and yield_pressure_MPa")
+    parts: tuple[tuple[str, Mapping[str, object], Mapping[str, object]], ...] = (
+        ("cylinders", strength.cylinders, linkage.actuators),
+        ("pins", strength.pins, linkage.pins),
+    )
+    for where, named, known in parts:
+        for name in named:
+            if name not in known:
+                raise InputError(
+                    f"strength.{where}.{name}: there is none; allowed: {', '.join(known) or 'none'}"
+                )
+    for name in linkage.actuators:
+        if name not in strength.cylinders:
+            raise InputError(f"strength.cylinders.{name}: missing; allowed: bore_mm and yield_pressure_MPa")
     if linkage.cranks or len(linkage.actuators) != 2:
         raise InputError(
             f"machine: {len(linkage.actuators)} actuators and {len(linkage.cranks)} cranks hold it; allowed: "
@@ -117,10 +152,28 @@ def checked(data: MachineData) -> StrengthData:
     return strength
 
 
-def _check_names(where: str, named: Mapping[str, object], known: Mapping[str, object]) -> None:
-    for name in named:
-        if name not in known:
-            raise InputError(f"{where}.{name}: there is none; allowed: {', '.join(known) or 'none'}")
+# --- forces ---
+
+
+def _pushes(
+    cylinders: Mapping[str, CylinderStrength], legs: Sequence[str], factor: float = 1.0, rams: float = 0.0
+) -> dict[str, float]:
+    """Pushes of all actuators [N]: legs at a factor times yield, rams at a share of their push or pull."""
+    found = {}
+    for name, one in cylinders.items():
+        ram = rams * (one.push if rams > 0.0 else one.pull)
+        found[name] = factor * (one.push if name in legs else ram)
+    return found
+
+
+def _limits(
+    cylinders: Mapping[str, CylinderStrength], legs: Sequence[str], factor: float = 1.0
+) -> dict[str, Limits]:
+    """What all actuators can do at a factor times yield: a leg pushes only, a ram pulls too."""
+    return {
+        name: Limits(0.0 if name in legs else 0.0 - factor * one.pull, factor * one.push)
+        for name, one in cylinders.items()
+    }
 
 
 def _check_held(statics: Sequence[RoofStatics], within: Mapping[str, Limits]) -> None:
@@ -136,40 +189,18 @@ def _check_held(statics: Sequence[RoofStatics], within: Mapping[str, Limits]) ->
             )
 
 
-def pushes(
-    cylinders: Mapping[str, CylinderStrength], legs: Sequence[str], factor: float = 1.0, rams: float = 0.0
-) -> dict[str, float]:
-    """Pushes of all actuators [N]: legs at a factor times yield, rams at a share of their push or pull."""
-    found = {}
-    for name, one in cylinders.items():
-        ram = rams * (one.push if rams > 0.0 else one.pull)
-        found[name] = factor * (one.push if name in legs else ram)
-    return found
-
-
-def limits(
-    cylinders: Mapping[str, CylinderStrength], legs: Sequence[str], factor: float = 1.0
-) -> dict[str, Limits]:
-    """What all actuators can do at a factor times yield: a leg pushes only, a ram pulls too."""
-    return {
-        name: Limits(0.0 if name in legs else 0.0 - factor * one.pull, factor * one.push)
-        for name, one in cylinders.items()
-    }
-
-
 def _support_force(
     stroke: float,
     statics: Mapping[float, RoofStatics],
     cylinders: Mapping[str, CylinderStrength],
     legs: Sequence[str],
 ) -> SupportForce:
-    smooth = statics[0.0]
-    at_yield, within = pushes(cylinders, legs), limits(cylinders, legs)
+    smooth, contact = statics[0.0], statics[0.0].contact
+    at_yield, within = _pushes(cylinders, legs), _limits(cylinders, legs)
     setting = {
         name: (one.setting_pressure or 0.0) * one.area * (name in legs) for name, one in cylinders.items()
     }
     rams = len(legs) < len(cylinders)
-    contact = smooth.contact
     known = all(cylinders[name].setting_pressure is not None for name in legs)
     return SupportForce(
         stroke=stroke,
@@ -177,8 +208,8 @@ def _support_force(
         setting=smooth.balancing(setting) if known else None,
         yielding=smooth.balancing(at_yield),
         rubbed={mu: one.balancing(at_yield) for mu, one in statics.items() if mu != 0.0},
-        pull=smooth.balancing(pushes(cylinders, legs, rams=-1.0)) if rams else None,
-        push=smooth.balancing(pushes(cylinders, legs, rams=1.0)) if rams else None,
+        pull=smooth.balancing(_pushes(cylinders, legs, rams=-1.0)) if rams else None,
+        push=smooth.balancing(_pushes(cylinders, legs, rams=1.0)) if rams else None,
         over=[
             RoofForce(smooth.largest_at(x, within), x)
             for x in np.linspace(contact.rear, contact.front, PLACES).tolist()
@@ -187,58 +218,32 @@ def _support_force(
     )
 
 
-def _pin_load(
-    pin: str,
-    known: KnownPin | None,
-    statics: Mapping[float, Sequence[RoofStatics]],
-    cylinders: Mapping[str, CylinderStrength],
-    legs: Sequence[str],
-) -> PinLoad:
-    def worst(frictions: Sequence[float], factor: float) -> float:
-        within = limits(cylinders, legs, factor)
-        return max(
-            float(np.hypot(*one.pins(corner)[pin]))
-            for mu in frictions
-            for one in statics[mu]
-            for corner in one.corners(within)
-        )
-
-    def nominal(factor: float) -> float:
-        at_yield = pushes(cylinders, legs, factor)
-        held = [(one, roof) for one in statics[0.0] if (roof := one.balancing(at_yield)) is not None]
-        return max((float(np.hypot(*one.pins(roof)[pin])) for one, roof in held), default=math.nan)
-
-    smooth = {factor: worst([0.0], factor) for factor in FACTORS}
-    rubbed = {factor: worst(list(statics), factor) for factor in FACTORS}
-    told = None
-    if known is not None:
-        eyes, diameter, _ = known
-        told = stresses(eyes, diameter, smooth[FACTORS[1]]), stresses(eyes, diameter, rubbed[FACTORS[1]])
-    return PinLoad(
-        nominal={factor: nominal(factor) for factor in FACTORS},
-        worst=smooth,
-        rubbed=rubbed,
-        stresses=told,
-        yields=known and known[0].yields,
-        assumed=known is not None and known[2],
-    )
+def _largest(roofs: Sequence[tuple[RoofStatics, RoofForce | None]]) -> dict[str, float]:
+    """The largest force in each pin [N] under roof forces in several postures; none where none balances."""
+    sizes = [
+        {pin: float(np.hypot(*force)) for pin, force in statics.pins(roof).items()}
+        for statics, roof in roofs
+        if roof is not None
+    ]
+    return {pin: max(one[pin] for one in sizes) for pin in (sizes[0] if sizes else ())}
 
 
 def _buckling(
-    told: Sequence[UsedPosture], cylinders: Mapping[str, CylinderStrength]
-) -> tuple[dict[str, Buckling], dict[str, str]]:
-    found, untold = {}, {}
+    postures: Sequence[UsedPosture], cylinders: Mapping[str, CylinderStrength]
+) -> dict[str, Buckling]:
+    """Buckling of all cylinders whose stages are known."""
+    found = {}
     for name, one in cylinders.items():
-        if not one.stages:
-            untold[name] = "its stages are not known"
-            continue
-        length = max(posture.linkage.actuators[name].start_length for posture in told)
+        length = max(posture.linkage.actuators[name].start_length for posture in postures)
         try:
-            euler, johnson = buckling_loads(one, length)
+            if one.stages:
+                found[name] = Buckling(length, one.push / one.count, *buckling_loads(one, length))
         except InputError as error:
             raise InputError(f"strength.cylinders.{name}.{error}") from None
-        found[name] = Buckling(length, one.push / one.count, euler, johnson)
-    return found, untold
+    return found
+
+
+# --- sentences ---
 
 
 def _assumed(data: MachineData, strength: StrengthData, pins: Mapping[str, KnownPin | None]) -> Iterator[str]:
@@ -252,18 +257,18 @@ def _assumed(data: MachineData, strength: StrengthData, pins: Mapping[str, Known
     known = {name: one for name, one in pins.items() if one is not None}
     if eyes := [name for name, (_, _, assumed) in known.items() if assumed]:
         yield f"eyes of {', '.join(eyes)}: one of half the pin's length between two of a quarter"
-    steels = {
-        "pins": f"35CrMo, which yields at {1e-6 * PIN_YIELD:.0f} MPa",
-        "eyes": f"S355, which yields at {1e-6 * EYE_YIELD:.0f} MPa in plates of 16 to 40 mm, thicker at less",
-    }
-    unsaid = {
-        "pins": [name for name, (pin, *_) in known.items() if pin.pin_yield_stress is None],
-        "eyes": [name for name, (pin, *_) in known.items() if pin.eye_yield_stress is None],
-    }
-    for word, names in unsaid.items():
-        if names:
+    steels = (
+        ("pins", "pin_yield_stress", f"35CrMo, which yields at {1e-6 * PIN_YIELD:.0f} MPa"),
+        (
+            "eyes",
+            "eye_yield_stress",
+            f"S355, which yields at {1e-6 * EYE_YIELD:.0f} MPa in plates of 16 to 40 mm, thicker at less",
+        ),
+    )
+    for word, field, steel in steels:
+        if names := [name for name, (pin, *_) in known.items() if getattr(pin, field) is None]:
             of = "" if len(names) == len(linkage.pins) else f" of {', '.join(names)}"
-            yield f"{word}{of}: of {steels[word]}"
+            yield f"{word}{of}: of {steel}"
     weightless = [name for name in linkage.actuators if name not in data.actuators]
     if strength.base is not None and weightless:
         yield f"cylinders of {', '.join(weightless)}: masses not known, left out of section 6"

@@ -1,4 +1,4 @@
-"""The roof force that actuators hold in one posture, its place on the canopy, and what pins carry under it.
+"""Postures over the used height, the roof force that actuators hold there, and what pins carry under it.
 
 Ideal pins, massless actuators. A roof force presses at x on the canopy with the vertical part Q and, where the
 roof rubs, the horizontal part mu Q. Equilibrium C^T L + w + f = 0 (C: Jacobian of all that is held, w: weight)
@@ -12,17 +12,20 @@ By virtual work a pair of actuator forces gives Q and Q x: two equations, two un
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping
 from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
 
 from support_exudyn.machines.check.statics import GRAVITY, Array
+from support_exudyn.machines.four_bar_shield import FourBarShield
+from support_exudyn.machines.machine_data import MachineData
+from support_exudyn.mechanics.closing import Conditions, moved_on
 from support_exudyn.mechanics.kinetics import kinetics_of
-from support_exudyn.model.linkage import Linkage
-from user_forces.values.value import InputError, Vector2
+from support_exudyn.mechanics.postures import laid_out
+from support_exudyn.model.linkage import GROUND, Linkage
+from user_forces.values.value import InputError
 
 SINGULAR = 1e-9  # of the largest singular value of C: below, forces have no bound
 SLACK = 1e-9  # of the largest force: by so much a corner may miss a limit by rounding
@@ -45,39 +48,53 @@ class RoofForce(NamedTuple):
     x: float
 
 
-@dataclass(frozen=True)
-class RoofContact:
-    """Where the roof lies on the canopy.
-
-    rear, front: x of its ends [m]. height: y of it [m].
-    """
+class RoofContact(NamedTuple):
+    """Where the roof lies on the canopy: x of its rear and front end, and y of it [m]."""
 
     rear: float
     front: float
     height: float
 
 
-def contact_of(linkage: Linkage, canopy: str) -> RoofContact:
-    """Where the roof lies: from the rearmost to the foremost joint or traced point of the canopy, and how high.
+class UsedPosture(NamedTuple):
+    """A posture: by how much the legs are longer than at the start [m], and the linkage laid out there."""
 
-    Raises InputError if there is no such body, or if it has not two places that lie apart.
+    stroke: float
+    linkage: Linkage
+
+
+def legs_of(linkage: Linkage) -> tuple[str, ...]:
+    """Names of the actuators that stand on the ground: legs and columns; the others are rams."""
+    return tuple(name for name, one in linkage.actuators.items() if one.foot == GROUND)
+
+
+def used_postures(data: MachineData, count: int) -> list[UsedPosture]:
+    """Postures evenly over the used stroke, from the lowest on.
+
+    A shield support goes as its drives lead it, with legs or columns that extend alike (the ram of a two-leg
+    shield keeps the canopy level). In any other machine all actuators on the ground extend alike and the others
+    keep their lengths; without a stroke it has its start posture alone.
+
+    Raises InputError if the linkage does not go so far.
     """
-    if canopy not in linkage.bodies:
-        raise InputError(
-            f"strength.canopy = {canopy!r}: no such body; allowed: {', '.join(linkage.bodies) or 'none'}"
-        )
-    places: list[Vector2] = [one.point for one in linkage.points.values() if one.body == canopy]
-    for pin in linkage.pins.values():
-        places += [pin.first_point] * (pin.first == canopy) + [pin.second_point] * (pin.second == canopy)
-    for one in linkage.actuators.values():
-        places += [one.foot_point] * (one.foot == canopy) + [one.head_point] * (one.head == canopy)
-    xs = [x for x, _ in places]
-    if not xs or max(xs) <= min(xs):
-        raise InputError(
-            f"bodies.{canopy}: its joints and traced points lie at one x, so nothing tells where the roof lies"
-            "; allowed: two that lie apart, such as a traced point at its tip"
-        )
-    return RoofContact(min(xs), max(xs), max(y for _, y in places))
+    machine, linkage = data.machine, data.machine.linkage()
+    legs, stroke, led = legs_of(linkage), data.stroke, linkage
+    if isinstance(machine, FourBarShield):
+        stroke, led = machine.usual_stroke if stroke is None else stroke, machine.led_linkage()
+    if stroke is None or not legs:
+        return [UsedPosture(0.0, linkage)]
+    conditions, closed = Conditions(led), kinetics_of(linkage)
+    at, reached, postures = conditions.still, 0.0, []
+    for goal in np.linspace(0.0, stroke, count).tolist():
+        at, share = moved_on(conditions, at, dict.fromkeys(legs, goal))
+        if share < 1.0:
+            raise InputError(
+                f"stroke = {stroke:.6g} m: the linkage locks before; allowed: up to "
+                f"{reached + share * (goal - reached):.4g} m"
+            )
+        reached = goal
+        postures.append(UsedPosture(goal, laid_out(closed, at / conditions.arms)))
+    return postures
 
 
 class RoofStatics:
@@ -93,7 +110,7 @@ class RoofStatics:
 
     def __init__(self, linkage: Linkage, canopy: str, friction: float = 0.0) -> None:
         self.linkage, self.canopy, self.friction = linkage, canopy, friction
-        self.contact = contact_of(linkage, canopy)
+        self.contact = _contact_of(linkage, canopy)
         kinetics = kinetics_of(linkage)
         still = np.zeros(3 * len(linkage.bodies))
         rows = kinetics.rows(still)
@@ -127,11 +144,6 @@ class RoofStatics:
         """Forces of pins by name, of the first body on the second, (2,) [N]."""
         found = self.all_forces(roof)
         return {name: found[2 * n : 2 * n + 2] for n, name in enumerate(self.linkage.pins)}
-
-    def pushes(self, roof: RoofForce) -> dict[str, float]:
-        """Pushes of the actuators under a roof force, by name [N]."""
-        found = self.all_forces(roof)
-        return {name: float(found[self._first + n]) for n, name in enumerate(self.linkage.actuators)}
 
     def balancing(self, pushes: Mapping[str, float]) -> RoofForce | None:
         """The roof force that two actuators hold with these pushes [N]; None if none does."""
@@ -167,21 +179,38 @@ class RoofStatics:
             rows += [(press, shift, limits[name].high - weight), (-press, -shift, weight - limits[name].low)]
         most = max(abs(limit) for _, _, limit in rows)
         slack = SLACK * most * (1.0 + max(abs(self.contact.rear), abs(self.contact.front)))
-        return list(self._kept(rows, slack, most))
-
-    def _kept(
-        self, rows: Sequence[tuple[float, float, float]], slack: float, most: float
-    ) -> Iterator[RoofForce]:
-        table = np.array(rows)
-        for one, other in combinations(range(len(rows)), 2):
-            pair = table[[one, other]]
-            if np.linalg.cond(pair[:, :2]) > 1.0 / SINGULAR:
+        found, table = [], np.array(rows)
+        for pair in combinations(table, 2):
+            left, right = np.array(pair)[:, :2], np.array(pair)[:, 2]
+            if np.linalg.cond(left) > 1.0 / SINGULAR:
                 continue
-            force, moment = np.linalg.solve(pair[:, :2], pair[:, 2])
+            force, moment = np.linalg.solve(left, right)
             if np.all(table[:, 0] * force + table[:, 1] * moment <= table[:, 2] + slack):
-                yield self._told(float(force), float(moment), most)
+                found.append(self._told(float(force), float(moment), most))
+        return found
 
     def _told(self, force: float, moment: float, size: float) -> RoofForce:
         if abs(force) <= SLACK * size:
             return RoofForce(0.0, self.contact.rear)
         return RoofForce(force, moment / force)
+
+
+def _contact_of(linkage: Linkage, canopy: str) -> RoofContact:
+    """Where the roof lies: from the rearmost to the foremost joint or traced point of the canopy, and how high.
+
+    Raises InputError if there is no such body, or if it has not two places that lie apart.
+    """
+    if canopy not in linkage.bodies:
+        raise InputError(
+            f"strength.canopy = {canopy!r}: no such body; allowed: {', '.join(linkage.bodies) or 'none'}"
+        )
+    places = [one.point for one in linkage.points.values() if one.body == canopy]
+    for (part, _), sides in linkage.joints.items():
+        places += [point for body, point in sides if body == canopy and part != "slides"]
+    xs = [x for x, _ in places]
+    if not xs or max(xs) <= min(xs):
+        raise InputError(
+            f"bodies.{canopy}: its joints and traced points lie at one x, so nothing tells where the roof lies"
+            "; allowed: two that lie apart, such as a traced point at its tip"
+        )
+    return RoofContact(min(xs), max(xs), max(y for _, y in places))

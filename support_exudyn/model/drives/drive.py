@@ -37,9 +37,9 @@ class Drive(Value, ABC):
         return 0.0
 
     @property
-    @abstractmethod
     def breaks(self) -> tuple[float, ...]:
-        """Times [s] at which a derivative jumps."""
+        """Times [s] at which a derivative jumps; none by default."""
+        return ()
 
     @abstractmethod
     def span(self, duration: float) -> tuple[float, float]:
@@ -57,11 +57,6 @@ class Held(Drive):
     def speed(self, t: float) -> float:
         """The speed is 0 m/s at any time."""
         return 0.0
-
-    @property
-    def breaks(self) -> tuple[float, ...]:
-        """There are no breaks."""
-        return ()
 
     def span(self, duration: float) -> tuple[float, float]:
         """The span is (0, 0) m."""
@@ -173,11 +168,6 @@ class Steady(Drive):
         """rate [rad/s]."""
         return self.rate
 
-    @property
-    def breaks(self) -> tuple[float, ...]:
-        """There are no breaks: the crank has been turning for long."""
-        return ()
-
     def span(self, duration: float) -> tuple[float, float]:
         """The span from 0 to rate times duration [rad], in order."""
         return min(0.0, self.rate * duration), max(0.0, self.rate * duration)
@@ -203,14 +193,6 @@ class Reciprocating(Drive):
         """Angular frequency [rad/s]."""
         return 2.0 * math.pi / self.period
 
-    def extension(self, t: float) -> float:
-        """Extension [m] at time t [s]."""
-        return 0.5 * self.stroke * (1.0 - math.cos(self._phase(t)))
-
-    def speed(self, t: float) -> float:
-        """Speed [m/s] at time t [s]."""
-        return 0.5 * self.stroke * self.frequency * math.sin(self._phase(t))
-
     def _phase(self, t: float) -> float:
         """Angle [rad] of the cosine.
 
@@ -218,6 +200,14 @@ class Reciprocating(Drive):
         the run: after 1000 s positions by 1e-14 m, and accelerations by that over the step squared.
         """
         return self.frequency * math.fmod(t, self.period)
+
+    def extension(self, t: float) -> float:
+        """Extension [m] at time t [s]."""
+        return 0.5 * self.stroke * (1.0 - math.cos(self._phase(t)))
+
+    def speed(self, t: float) -> float:
+        """Speed [m/s] at time t [s]."""
+        return 0.5 * self.stroke * self.frequency * math.sin(self._phase(t))
 
     @property
     def breaks(self) -> tuple[float, ...]:

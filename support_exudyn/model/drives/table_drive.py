@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Sequence
 from functools import cached_property
+from itertools import pairwise
 from typing import Annotated, Literal, NamedTuple
 
 from pydantic import Field, model_validator
@@ -55,7 +55,7 @@ class TableDrive(Drive):
             raise ValueError(
                 f"{len(self.times)} times and {len(self.extensions)} extensions: allowed: as many of both"
             )
-        for n, (before, after) in enumerate(zip(self.times, self.times[1:], strict=False), 1):
+        for n, (before, after) in enumerate(pairwise(self.times), 1):
             if after <= before:
                 raise ValueError(f"times[{n}] = {after} s: allowed: > {before} s, the one before")
         if self.extensions[0] != 0.0:
@@ -68,43 +68,21 @@ class TableDrive(Drive):
     def extension(self, t: float) -> float:
         """Extension [m] at time t [s]."""
         n = self._piece(t)
-        if n == 0:
-            return self.extensions[0]
-        if n == len(self.times):
-            return self.extensions[-1]
-        if t == self.times[n]:
+        if n < len(self.times) and t == self.times[n]:
             return self.extensions[n]  # which the way below would miss by rounding
-        begin, low = self.times[n - 1], self.extensions[n - 1]
-        length, rise = self.times[n] - begin, self.extensions[n] - low
+        begin, length, a0, a1, a2, a3 = self.cubic(t)
         x = (t - begin) / length
-        if self.between == "linear":
-            return low + rise * x
-        first, last = self._slopes[n - 1], self._slopes[n]
-        bent = length * x * (1.0 - x) * (first * (1.0 - x) - last * x)
-        return low + rise * x * x * (3.0 - 2.0 * x) + bent
+        return a0 + x * (a1 + x * (a2 + x * a3))
 
     def speed(self, t: float) -> float:
         """Speed [m/s] at time t [s]; at a jump the value before it."""
-        n = self._piece(t)
-        if n in (0, len(self.times)):
-            return 0.0
-        if self.between == "linear":
-            return self._secants[n - 1]
-        begin, low = self.times[n - 1], self.extensions[n - 1]
-        length, rise = self.times[n] - begin, self.extensions[n] - low
+        begin, length, _, a1, a2, a3 = self.cubic(t)
         x = (t - begin) / length
-        first, last = self._slopes[n - 1], self._slopes[n]
-        bent = first * (1.0 - x) * (1.0 - 3.0 * x) + last * x * (3.0 * x - 2.0)
-        return rise * 6.0 * x * (1.0 - x) / length + bent
+        return (a1 + x * (2.0 * a2 + 3.0 * a3 * x)) / length
 
     def speed_jump(self, t: float) -> float:
         """Jump of the speed at a time [s], in m/s; 0 everywhere if the points are joined smoothly."""
         return self._jumps.get(t, 0.0)
-
-    @property
-    def initial_speed(self) -> float:
-        """0 m/s: what begins at the start begins with a jump, as that of `UniformSpeed` does."""
-        return 0.0
 
     @cached_property
     def breaks(self) -> tuple[float, ...]:
@@ -135,15 +113,19 @@ class TableDrive(Drive):
     @cached_property
     def _secants(self) -> tuple[float, ...]:
         """Mean speed of every piece [m/s]."""
-        rises = zip(self.extensions[1:], self.extensions, strict=False)
-        lengths = zip(self.times[1:], self.times, strict=False)
-        return tuple((b - a) / (d - c) for (b, a), (d, c) in zip(rises, lengths, strict=True))
+        points = pairwise(zip(self.times, self.extensions, strict=True))
+        return tuple((high - low) / (end - begin) for (begin, low), (end, high) in points)
 
     @cached_property
     def _slopes(self) -> tuple[float, ...]:
-        """Speed at every point of a smooth drive [m/s]."""
-        inner = pchip_slopes(self.times, self._secants)
-        return (0.0, *inner, 0.0)
+        """Speed at every point of a smooth drive [m/s]: weighted harmonic means, 0 at extremes and ends."""
+        found = [0.0]
+        for n, (before, after) in enumerate(pairwise(self._secants)):
+            left, right = self.times[n + 1] - self.times[n], self.times[n + 2] - self.times[n + 1]
+            first, last = 2.0 * right + left, right + 2.0 * left
+            turns = before * after <= 0.0
+            found.append(0.0 if turns else (first + last) / (first / before + last / after))
+        return (*found, 0.0)
 
     @cached_property
     def _jumps(self) -> dict[float, float]:
@@ -153,17 +135,3 @@ class TableDrive(Drive):
         speeds = (0.0, *self._secants, 0.0)
         jumps = zip(self.times, speeds, speeds[1:], strict=False)
         return {t: after - before for t, before, after in jumps if after != before}
-
-
-def pchip_slopes(times: Sequence[float], secants: Sequence[float]) -> list[float]:
-    """Slopes at the inner points of a table: a weighted harmonic mean of those of both sides, 0 at extremes."""
-    found = []
-    for n in range(1, len(secants)):
-        before, after = secants[n - 1], secants[n]
-        if before * after <= 0.0:
-            found.append(0.0)
-            continue
-        left, right = times[n] - times[n - 1], times[n + 1] - times[n]
-        first, last = 2.0 * right + left, right + 2.0 * left
-        found.append((first + last) / (first / before + last / after))
-    return found

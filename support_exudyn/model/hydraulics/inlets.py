@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 from typing import Annotated
 
@@ -33,14 +34,14 @@ class Inlet(Value, ABC):
         return 0.0
 
     @property
-    @abstractmethod
     def breaks(self) -> tuple[float, ...]:
-        """Times [s] at which the opening or its rate jumps."""
+        """Times [s] at which the opening or its rate jumps; none by default."""
+        return ()
 
     @property
-    @abstractmethod
     def shortest_time(self) -> float:
-        """Time [s] in which the opening changes, or stays, whichever is shorter."""
+        """Time [s] in which the opening changes, or stays, whichever is shorter; infinite by default."""
+        return math.inf
 
 
 @value
@@ -51,23 +52,13 @@ class ClosedInlet(Inlet):
         """The opening is 0 at any time."""
         return 0.0
 
-    @property
-    def breaks(self) -> tuple[float, ...]:
-        """There are no breaks."""
-        return ()
-
-    @property
-    def shortest_time(self) -> float:
-        """The time is infinite [s]."""
-        return float("inf")
-
 
 @value
-class SuddenOpening(Inlet):
-    """Direct inlet, drive mode 1 of the paper: the valve opens and closes at once.
+class TimedInlet(Inlet, ABC):
+    """A valve that is open between two times.
 
     Arguments:
-        start, end: when it opens and closes [s], 3 and 5 by default; end > start >= 0.
+        start, end: when it begins to open and is closed again [s], 3 and 5 by default; end > start >= 0.
         extent: of the opening, from -1 to 1, 1 by default: fully open so that the actuator extends.
     """
 
@@ -76,10 +67,18 @@ class SuddenOpening(Inlet):
     extent: Opening = 1.0
 
     @model_validator(mode="after")
-    def _closes_after_it_opens(self) -> SuddenOpening:
+    def _closes_after_it_opens(self) -> TimedInlet:
         if self.end <= self.start:
             raise ValueError(f"end = {self.end} s: allowed: > start = {self.start} s")
         return self
+
+
+@value
+class SuddenOpening(TimedInlet):
+    """Direct inlet, drive mode 1 of the paper: the valve opens and closes at once.
+
+    Arguments: those of `TimedInlet`.
+    """
 
     def opening(self, t: float) -> float:
         """Share of the full opening at time t [s]; at the jumps the value before."""
@@ -101,25 +100,17 @@ class SuddenOpening(Inlet):
 
 
 @value
-class RampedOpening(Inlet):
+class RampedOpening(TimedInlet):
     """Smooth inlet, drive mode 2 of the paper: the valve opens and closes along straight ramps.
 
-    Arguments:
-        start, end: when it begins to open and is closed again [s], 3 and 5 by default; end > start >= 0.
+    Arguments: those of `TimedInlet`, and
         ramp: how long it takes to open, and to close [s], 0.5 by default; > 0, at most half of end - start.
-        extent: of the opening between the ramps, from -1 to 1, 1 by default: fully open so that the actuator
-            extends.
     """
 
-    start: Seconds[NonNegative] = 3.0
-    end: Seconds[Positive] = 5.0
     ramp: Seconds[Positive] = 0.5
-    extent: Opening = 1.0
 
     @model_validator(mode="after")
     def _ramps_fit(self) -> RampedOpening:
-        if self.end <= self.start:
-            raise ValueError(f"end = {self.end} s: allowed: > start = {self.start} s")
         if 2.0 * self.ramp > (self.end - self.start) * (1.0 + 1e-12):
             raise ValueError(
                 f"ramp = {self.ramp} s: allowed: at most half of end - start, {0.5 * (self.end - self.start)} s"

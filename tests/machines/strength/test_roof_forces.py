@@ -12,8 +12,13 @@ from scipy.optimize import linprog
 
 from support_exudyn.files.machines import shipped
 from support_exudyn.machines.check.statics import GRAVITY
-from support_exudyn.machines.strength.roof_forces import Limits, RoofForce, RoofStatics
-from support_exudyn.machines.strength.used_postures import UsedPosture, used_postures
+from support_exudyn.machines.strength.roof_forces import (
+    Limits,
+    RoofForce,
+    RoofStatics,
+    UsedPosture,
+    used_postures,
+)
 from support_exudyn.mechanics.closing import Conditions, newton
 from support_exudyn.model.linkage import GROUND, Body, LinearActuator, Linkage, TracePoint, pinned
 from user_forces import InputError
