@@ -73,14 +73,6 @@ def test_extension_stays_within_the_span_and_reaches_it(drive: Drive, duration: 
 # --- strokes ---
 
 
-@given(drive=strokes, beyond=st.floats(1e-6, 5.0))
-def test_actuators_rest_before_the_start_and_at_their_stroke_after_the_end(
-    drive: Stroke, beyond: float
-) -> None:
-    assert (drive.extension(drive.start - beyond), drive.speed(drive.start - beyond)) == (0.0, 0.0)
-    assert (drive.extension(drive.end + beyond), drive.speed(drive.end + beyond)) == (drive.stroke, 0.0)
-
-
 @given(stroke=sizes, start=starts, length=lengths, t=times)
 def test_cubic_step_is_the_step_function(stroke: float, start: float, length: float, t: float) -> None:
     chosen = stroke_of(CubicStep, stroke, start, length)

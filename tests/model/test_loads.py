@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Mapping
 from dataclasses import replace
@@ -50,15 +49,14 @@ from tests.linkage_cases import CrankRocker
 from tests.roof_cases import (
     STIFFNESS,
     TOP,
-    DeadLoad,
     Ram,
     over_the_canopy,
     over_the_ram,
     pressed_support,
 )
-from user_forces import InputError, Value, value
+from user_forces import InputError, value
 from user_forces.kernel import kernel
-from user_forces.values.value import Vector2, kinds_of
+from user_forces.values.value import Vector2
 
 TABLE = TableCourse(times=(0.1, 0.2, 0.4), shares=(2.0, 1.0, -0.5))
 SINE = HarmonicCourse(period=0.25, phase=0.2, mean=0.5)
@@ -128,11 +126,6 @@ def moved(
     plane = (t + by, *now[:count], *rates[:count])
     motion: tuple[float, ...] = load.MOTION(*plane, *([now[2], rates[2]] if load.FORCES == 3 else ()))
     return motion
-
-
-def test_every_kind_of_load_is_in_the_table() -> None:
-    kinds = {kind for kind in kinds_of(ActingLoad).values() if kind.__module__.startswith("support_exudyn")}
-    assert kinds <= {type(load) for load in LOADS.values()}
 
 
 @every_load
@@ -324,13 +317,6 @@ def test_a_table_is_constant_outside_and_meets_its_points() -> None:
     assert replace(TABLE, between="linear").share(0.3) == pytest.approx(0.25, rel=1e-12)
 
 
-def test_a_force_comes_on_between_its_times() -> None:
-    assert COMES_ON.breaks == (0.1, 0.3)
-    found = acting(COMES_ON, LoadedPoint(0.2, 0.0, 0.0, 0.0, 0.0)).channels
-    assert found == pytest.approx({"force_x": 1e3, "force_y": -2.5e4})
-    assert ALWAYS.breaks == ()
-
-
 @pytest.mark.parametrize(
     ("load", "duration", "largest"),
     [
@@ -390,14 +376,6 @@ def test_a_load_on_one_of_two_in_space_is_refused() -> None:
 def test_numbers_that_make_no_sense_are_refused(field: str, number: float, allowed: str) -> None:
     with pytest.raises(InputError, match=rf"Roof\.{field} = {number}: .*allowed: {allowed}"):
         replace(over_the_ram(), **{field: number})
-
-
-@pytest.mark.parametrize(
-    "load", [over_the_canopy(0.1, damping=2.0), DeadLoad(body="canopy", point=TOP, vector=(1.0, 2.0))]
-)
-def test_a_loaded_scenario_comes_back_from_json(load: Roof | DeadLoad) -> None:
-    scene = pressed_support(load)
-    assert Value.from_data(json.loads(json.dumps(scene.to_data()))) == scene
 
 
 # --- the times that steps have to follow ---

@@ -68,11 +68,14 @@ class TableDrive(Drive):
     def extension(self, t: float) -> float:
         """Extension [m] at time t [s]."""
         n = self._piece(t)
-        if n < len(self.times) and t == self.times[n]:
-            return self.extensions[n]  # which the way below would miss by rounding
-        begin, length, a0, a1, a2, a3 = self.cubic(t)
-        x = (t - begin) / length
-        return a0 + x * (a1 + x * (a2 + x * a3))
+        if n in (0, len(self.times)) or t == self.times[n]:
+            return self.extensions[min(n, len(self.times) - 1)]  # which the way below would miss by rounding
+        begin, length, low, slope, _, _ = self.cubic(t)
+        x, rise = (t - begin) / length, self.extensions[n] - low
+        if self.between == "linear":
+            return low + rise * x
+        bent = x * (1.0 - x) * (slope * (1.0 - x) - length * self._slopes[n] * x)
+        return low + rise * x * x * (3.0 - 2.0 * x) + bent
 
     def speed(self, t: float) -> float:
         """Speed [m/s] at time t [s]; at a jump the value before it."""
