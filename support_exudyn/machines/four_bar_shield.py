@@ -246,27 +246,11 @@ class FourBarShield(Machine, ABC):
         )
         return first, second
 
-    def column_rates(self, posture: Posture) -> np.ndarray:
-        """Derivatives of the columns' lengths by the turns of rear link and canopy, (2, 2) [m/rad].
-
-        By central differences; infinite next to a dead centre.
-        """
-        rates = np.full((2, 2), math.inf)
-        for column, (link, canopy) in enumerate(((NEAR, 0.0), (0.0, NEAR))):
-            low, high = (
-                self.posture(posture.rear_link + sign * link, posture.canopy + sign * canopy)
-                for sign in (-1.0, 1.0)
-            )
-            if low is not None and high is not None:
-                change = np.subtract(self.column_lengths(high), self.column_lengths(low))
-                rates[:, column] = change / (2.0 * NEAR)
-        return rates
-
     def extended(self, extension: float, near: Posture | None = None) -> Posture | None:
         """Posture with the driven columns longer than at the start by `extension` [m]; None if there is none.
 
-        Newton's method in the turns of rear link and canopy. A column that follows another is left out, and the
-        canopy keeps level.
+        Newton's method in the turns of rear link and canopy, with rates of lengths by central differences. A
+        column that follows another is left out, and the canopy keeps level.
 
         near: a posture from which the search starts, the start by default; steps of some centimetres are safe.
         """
@@ -274,8 +258,17 @@ class FourBarShield(Machine, ABC):
         wanted = np.add(self.column_lengths(self.start()), extension)
         posture, last = near, False
         for _ in range(MOST_CORRECTIONS):
-            rates = self.column_rates(posture)[:unknowns, :unknowns]
-            if not np.isfinite(rates).all() or abs(np.linalg.det(rates)) < LOCKED:
+            rates = np.zeros((unknowns, unknowns))
+            for column, ways in enumerate(NEAR * np.eye(2)[:unknowns]):
+                low, high = (
+                    self.posture(*np.add((posture.rear_link, posture.canopy), sign * ways).tolist())
+                    for sign in (-1.0, 1.0)
+                )
+                if low is None or high is None:
+                    return None
+                change = np.subtract(self.column_lengths(high), self.column_lengths(low))
+                rates[:, column] = change[:unknowns] / (2.0 * NEAR)
+            if abs(np.linalg.det(rates)) < LOCKED:
                 return None
             short = np.subtract(wanted, self.column_lengths(posture))[:unknowns]
             step = np.zeros(2)

@@ -16,7 +16,7 @@ d turn/dt, and a spring that acts on the turn gives back what it has taken up.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from functools import cache
+from functools import cache, partial
 from typing import Any
 
 import numpy as np
@@ -165,12 +165,12 @@ def add_load(forces: Series, motion: Motion, name: str, load: ActingLoad, series
 
 def load_channels(name: str, load: ActingLoad, stem: str | None = None) -> ChannelDefinitions:
     """The channels of a load of this name; stem: what their names begin with, by default its name."""
-    rows = [(what, *load.channels[what], _observed(what)) for what in load.channels]
+    rows = [(what, *text, partial(_observed, what)) for what, text in load.channels.items()]
     return table(stem or name, LOADED, named("loads", name), rows)
 
 
-def _observed(what: str) -> Callable[[LoadSeries], Series]:
-    return lambda load: load.observed[what]
+def _observed(what: str, load: LoadSeries) -> Series:
+    return load.observed[what]
 
 
 def forces_at_rest(system: Kinetics, loads: Mapping[str, ActingLoad], position: Matrix) -> Matrix:
@@ -178,7 +178,7 @@ def forces_at_rest(system: Kinetics, loads: Mapping[str, ActingLoad], position: 
 
     system: with coordinates in the order of its bodies. position: coordinates of all bodies (n,).
     """
-    motion, forces = _at_rest(system, position[None]), np.zeros((1, position.size))
+    motion, forces = system.motion(position), np.zeros((1, position.size))
     for name, load in loads.items():
         time = np.array([max(load.breaks, default=0.0)])
         add_load(forces, motion, name, load, load_series(load, name, motion, time))
@@ -195,9 +195,9 @@ def largest_forces(system: Kinetics, loads: Mapping[str, ActingLoad], duration: 
         count = SAMPLES + duration / (FINEST * load.shortest_time)
         even = np.linspace(0.0, duration, int(min(count, MOST_SAMPLES)) + 1)
         times = np.union1d(even, [t for t in load.breaks if 0.0 <= t <= duration])
-        motion = _at_rest(system, np.zeros((len(times), found.size)))
+        still, forces = np.zeros((2, len(times), found.size))
+        motion = BodyMotion(system.linkage, still, still)
         series = load_series(load, name, motion, times)
-        forces = np.zeros((len(times), found.size))
         add_load(forces, motion, name, load, series)
         found += forces[np.argmax(np.linalg.norm(series.forces, axis=1))]
     return found
@@ -208,12 +208,6 @@ def strain_rates(system: Kinetics, name: str, load: ActingLoad) -> Matrix:
 
     That is the transpose of what turns its forces into those on all coordinates.
     """
-    count, size = load.FORCES, 3 * len(system.linkage.bodies)
-    motion, forces = _at_rest(system, np.zeros((count, size))), np.zeros((count, size))
-    strain_of(load, name, motion).apply(forces, np.eye(count))
+    still, forces = np.zeros((2, load.FORCES, 3 * len(system.linkage.bodies)))
+    strain_of(load, name, BodyMotion(system.linkage, still, still)).apply(forces, np.eye(load.FORCES))
     return forces
-
-
-def _at_rest(system: Kinetics, position: Matrix) -> BodyMotion:
-    """Bodies at rest at coordinates (n, 3 b) in the order of the linkage."""
-    return BodyMotion(system.linkage, position, np.zeros_like(position))

@@ -60,7 +60,10 @@ class Guide(Value, ABC):
 
     def misfit(self, turns: bool) -> str:
         """What does not fit a slide whose body may turn, or not, and what would; empty if nothing."""
-        del turns
+        if turns and getattr(self, "block", None) is not None:
+            return "has a block; allowed: pin_radius, for its body may turn"
+        if not turns and getattr(self, "pin_radius", None) is not None:
+            return "has a pin_radius; allowed: block, for its body does not turn"
         return ""
 
     def contacts(self) -> Mapping[str, GuideContact]:
@@ -106,10 +109,6 @@ class IdealGuide(Guide):
         """Friction is of the plane alone."""
         return None if self.friction is None else ("IdealGuide with friction", "IdealGuide without")
 
-    def misfit(self, turns: bool) -> str:
-        """A pin needs a slide that lets turn, a block one that does not."""
-        return _misfit(self.block, self.pin_radius, turns)
-
     def lever(self, across: float) -> float:
         """Arm [m] of the friction force about the guide's point, for a force of the guide across [N]."""
         return math.copysign(self.pin_radius, across) if self.pin_radius is not None else 0.0
@@ -135,15 +134,6 @@ class IdealGuide(Guide):
     def losses(self) -> dict[str, object]:
         """An ideal guide loses energy by friction."""
         return {} if self.friction is None else {"friction_loss": self.friction}
-
-
-def _misfit(block: object, pin_radius: object, turns: bool) -> str:
-    """What does not fit a slide whose body may turn, or not, and what would; empty if nothing."""
-    if turns and block is not None:
-        return "has a block; allowed: pin_radius, for its body may turn"
-    if not turns and pin_radius is not None:
-        return "has a pin_radius; allowed: block, for its body does not turn"
-    return ""
 
 
 @value
@@ -239,27 +229,18 @@ class ClearanceGuide(Guide):
         """Clearance in a guide is of the plane alone."""
         return (type(self).__name__, "IdealGuide")
 
-    def misfit(self, turns: bool) -> str:
-        """A pin needs a slide that lets turn, a block one that does not."""
-        return _misfit(self.block, self.pin_radius, turns)
-
     def contacts(self) -> Mapping[str, GuideContact]:
         """The corners of the block, or the pin, by name."""
         upper, lower = self.gaps
-        middle = 0.5 * (upper - lower)
-        if self.block is None:
-            assert self.pin_radius is not None  # one of both is there
-            return {PIN: GuideContact((0.0, 0.0), middle, self._contact(0.0, self.pin_radius))}
-        length, height = self.block
-        contact = self._contact(0.5 * height, 0.0)
-        return {
-            name: GuideContact((0.5 * x * length, 0.5 * y * height), middle, contact)
-            for name, (x, y) in CORNERS.items()
-        }
-
-    def _contact(self, half_height: float, radius: float) -> SlotContact:
+        middle, radius = 0.5 * (upper - lower), self.pin_radius or 0.0
+        half_length, half_height = (0.5 * size for size in self.block or (0.0, 0.0))
         slot = Slot(clearance=half_height + self.play, radius=radius)
-        return SlotContact(bearing=slot, normal=self.normal, friction=self.friction)
+        contact = SlotContact(bearing=slot, normal=self.normal, friction=self.friction)
+        places = {PIN: (0, 0)} if self.block is None else CORNERS
+        return {
+            name: GuideContact((x * half_length, y * half_height), middle, contact)
+            for name, (x, y) in places.items()
+        }
 
     def losses(self) -> dict[str, object]:
         """A guide with clearance loses energy by the damping and the friction of its contacts."""

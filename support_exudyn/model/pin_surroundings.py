@@ -1,9 +1,8 @@
 """What a machine knows of the contact in its pins: the length of each, and the links that its pins hold."""
 
 import math
-from collections.abc import Iterator
 
-from support_exudyn.model.linkage import GROUND, Linkage, PinPlace
+from support_exudyn.model.linkage import GROUND
 from support_exudyn.model.machine import Machine
 from user_forces.backing import bar_stiffness, in_series
 from user_forces.materials import Material
@@ -28,24 +27,15 @@ def links_stiffness(machine: Machine, pin: str, material: Material) -> float:
 
     A link is a body that is held by two pins and nothing else. Its section is that of its mass.
     """
-    linkage = machine.linkage()
-    place = linkage.pins[pin]
-    bodies = [name for name in (place.first, place.second) if name != GROUND]
-    return in_series(
-        bar_stiffness(linkage.bodies[name].mass, length, material)
-        for name in bodies
-        for length in _link_length(linkage, name)
-    )
-
-
-def _link_length(linkage: Linkage, body: str) -> Iterator[float]:
-    """The distance of a body's two pins, if it is a link; else nothing."""
-    pins = [pin for pin in linkage.pins.values() if body in (pin.first, pin.second)]
-    held = [end for one in linkage.actuators.values() for end in (one.foot, one.head)]
-    held += [end for one in linkage.slides.values() for end in (one.body, one.against)]
-    if len(pins) == 2 and body not in held:
-        yield math.dist(*(_point(pin, body) for pin in pins))
-
-
-def _point(pin: PinPlace, body: str) -> tuple[float, float]:
-    return pin.first_point if pin.first == body else pin.second_point
+    linkage, lengths = machine.linkage(), []
+    for name in (body for body, _ in linkage.pins[pin].sides if body != GROUND):
+        ends = [
+            (part, point)
+            for (part, _), sides in linkage.joints.items()
+            for body, point in sides
+            if body == name
+        ]
+        if [part for part, _ in ends] == ["pins", "pins"]:
+            length = math.dist(*(point for _, point in ends))
+            lengths.append(bar_stiffness(linkage.bodies[name].mass, length, material))
+    return in_series(lengths)

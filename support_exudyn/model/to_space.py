@@ -13,7 +13,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import field, fields
 from typing import Literal
 
-from support_exudyn.model.linkage import GROUND, Body, LinearActuator, Linkage, PinPlace, TracePoint
+from support_exudyn.model.linkage import Linkage
 from support_exudyn.model.spatial_linkage import (
     Bearing,
     SpatialActuator,
@@ -74,21 +74,50 @@ def lift(linkage: Linkage, width: Width) -> SpatialLinkage:
     """
     pairs = pairs_of(linkage, width)
     _check(linkage, width, pairs)
-    return SpatialLinkage(
-        bodies={
-            name + side: _body(body, z, share, width.spreads[name])
-            for name, body in linkage.bodies.items()
-            for side, z, share in copies(pairs.get(name))
-        },
-        bearings={name: bearing for pin in linkage.pins for name, bearing in _bearings(linkage, width, pin)}
-        | {name: bearing for guide in linkage.slides for name, bearing in _guides(linkage, width, guide)},
-        actuators={
-            name + side: _actuator(name, actuator, z, share, side, pairs)
-            for name, actuator in linkage.actuators.items()
-            for side, z, share in copies(width.actuators.get(name))
-        },
-        points={name: point for each in linkage.points for name, point in _points(linkage, width, each)},
-    )
+    bodies, actuators, points = {}, {}, {}
+    for name, body in linkage.bodies.items():
+        xx, yy, xy = body.moments or (0.5 * body.inertia, 0.5 * body.inertia, 0.0)
+        zz = body.mass * width.spreads[name] ** 2
+        for side, z, share in copies(pairs.get(name)):
+            bodies[name + side] = SpatialBody(
+                mass=share * body.mass,
+                inertia=(share * (yy + zz), share * (xx + zz), share * body.inertia, 0.0, 0.0, -share * xy),
+                centre=at(body.centre, z),
+                angle=body.angle,
+                velocity=at(body.velocity, 0.0),
+                spin=(0.0, 0.0, body.spin),
+            )
+    for name, actuator in linkage.actuators.items():
+        for side, z, share in copies(width.actuators.get(name)):
+            actuators[name + side] = SpatialActuator(
+                foot=actuator.foot + side * (actuator.foot in pairs),
+                head=actuator.head + side * (actuator.head in pairs),
+                foot_point=at(actuator.foot_point, z),
+                head_point=at(actuator.head_point, z),
+                actuator=name,
+                share=share,
+            )
+    for name, traced in linkage.points.items():
+        places = [("", 0.0, 1.0), *(copies(width.points[name]) if name in width.points else [])]
+        for side, z, _ in places:
+            points[name + side] = SpatialPoint(body=traced.body, point=at(traced.point, z))
+    bearings = {name: one for pin in linkage.pins for name, one in _bearings(linkage, width, pairs, pin)}
+    for name, slide in linkage.slides.items():  # the rod of an actuator in its cylinder
+        axis = (math.cos(slide.direction), math.sin(slide.direction), 0.0)
+        for side, z, share in copies(pairs[slide.body]):
+            bearings[name + side] = Bearing(
+                first=slide.against + side,
+                second=slide.body + side,
+                first_point=at(slide.point, z),
+                second_point=at(slide.point, z),
+                first_axis=axis,
+                second_axis=axis,
+                holds=frozenset({"tilt"}),
+                pin=name,
+                share=share,
+                is_guide=True,
+            )
+    return SpatialLinkage(bodies=bodies, bearings=bearings, actuators=actuators, points=points)
 
 
 def pairs_of(linkage: Linkage, width: Width) -> dict[str, float]:
@@ -99,11 +128,6 @@ def pairs_of(linkage: Linkage, width: Width) -> dict[str, float]:
             if name in width.actuators and {actuator.foot, actuator.head} == {slide.against, slide.body}:
                 found[slide.against] = found[slide.body] = width.actuators[name]
     return found
-
-
-def _in_actuators(linkage: Linkage) -> set[str]:
-    """Bodies of actuators, whose ends are spherical."""
-    return {body for slide in linkage.slides.values() for body in (slide.against, slide.body)}
 
 
 def copies(half_distance: float | None) -> list[Copy]:
@@ -133,6 +157,11 @@ def _check(linkage: Linkage, width: Width, pairs: Mapping[str, float]) -> None:
                 raise InputError(
                     f"actuators.{name} on {body}, which is a pair: not covered; allowed: single bodies"
                 )
+    for name, traced in linkage.points.items():
+        if traced.body in width.pairs:
+            raise InputError(
+                f"points.{name} on {traced.body}, which is a pair: not covered; allowed: single bodies"
+            )
 
 
 def at(point: Vector2, z: float) -> Vector3:
@@ -140,32 +169,24 @@ def at(point: Vector2, z: float) -> Vector3:
     return point[0], point[1], z
 
 
-def _body(body: Body, z: float, share: float, spread: float) -> SpatialBody:
-    xx, yy, xy = body.moments or (0.5 * body.inertia, 0.5 * body.inertia, 0.0)
-    zz = body.mass * spread * spread
-    return SpatialBody(
-        mass=share * body.mass,
-        inertia=(share * (yy + zz), share * (xx + zz), share * body.inertia, 0.0, 0.0, -share * xy),
-        centre=at(body.centre, z),
-        angle=body.angle,
-        velocity=at(body.velocity, 0.0),
-        spin=(0.0, 0.0, body.spin),
-    )
-
-
-def _bearings(linkage: Linkage, width: Width, name: str) -> Iterator[tuple[str, Bearing]]:
+def _bearings(
+    linkage: Linkage, width: Width, pairs: Mapping[str, float], name: str
+) -> Iterator[tuple[str, Bearing]]:
+    """The bearings of a pin, one or two; pairs: of `pairs_of`."""
     place = linkage.pins[name]
-    pairs = pairs_of(linkage, width)
     paired = [body for body in (place.first, place.second) if body in pairs]
     distances = {pairs[body] for body in paired}
     if len(distances) > 1:
         raise InputError(
             f"pins.{name}: joins pairs {' and '.join(paired)} at different distances; allowed: one"
         )
+    in_actuators = {body for slide in linkage.slides.values() for body in (slide.against, slide.body)}
+    # the first pin of a body of a pair holds it sideways
+    first_pins = {body: key for key, pin in reversed(linkage.pins.items()) for body, _ in pin.sides}
     holds: frozenset[Literal["tilt", "along", "turn"]] = frozenset({"tilt", "along"})
-    if any(body in _in_actuators(linkage) for body in paired):
+    if in_actuators & {*paired}:
         holds = frozenset({"along"})
-    elif any(_first_pin(linkage, body) != name for body in paired):
+    elif any(first_pins[body] != name for body in paired):
         holds = frozenset()
     for side, z, share in copies(distances.pop() if paired else None):
         yield (
@@ -181,59 +202,3 @@ def _bearings(linkage: Linkage, width: Width, name: str) -> Iterator[tuple[str, 
                 share=share,
             ),
         )
-
-
-def _first_pin(linkage: Linkage, body: str) -> str:
-    """The pin that holds a body of a pair sideways."""
-
-    def joins(place: PinPlace) -> bool:
-        return body in (place.first, place.second)
-
-    return next(name for name, place in linkage.pins.items() if joins(place))
-
-
-def _guides(linkage: Linkage, width: Width, name: str) -> Iterator[tuple[str, Bearing]]:
-    """The rod of an actuator in its cylinder, left and right."""
-    slide = linkage.slides[name]
-    axis = (math.cos(slide.direction), math.sin(slide.direction), 0.0)
-    for side, z, share in copies(pairs_of(linkage, width)[slide.body]):
-        yield (
-            name + side,
-            Bearing(
-                first=slide.against + side,
-                second=slide.body + side,
-                first_point=at(slide.point, z),
-                second_point=at(slide.point, z),
-                first_axis=axis,
-                second_axis=axis,
-                holds=frozenset({"tilt"}),
-                pin=name,
-                share=share,
-                is_guide=True,
-            ),
-        )
-
-
-def _actuator(
-    name: str, actuator: LinearActuator, z: float, share: float, side: str, pairs: Mapping[str, float]
-) -> SpatialActuator:
-    return SpatialActuator(
-        foot=actuator.foot + side * (actuator.foot in pairs),
-        head=actuator.head + side * (actuator.head in pairs),
-        foot_point=at(actuator.foot_point, z),
-        head_point=at(actuator.head_point, z),
-        actuator=name,
-        share=share,
-    )
-
-
-def _points(linkage: Linkage, width: Width, name: str) -> Iterator[tuple[str, SpatialPoint]]:
-    traced: TracePoint = linkage.points[name]
-    if traced.body != GROUND and traced.body in width.pairs:
-        raise InputError(
-            f"points.{name} on {traced.body}, which is a pair: not covered; allowed: single bodies"
-        )
-    yield name, SpatialPoint(body=traced.body, point=at(traced.point, 0.0))
-    if name in width.points:
-        for side, z, _ in copies(width.points[name]):
-            yield name + side, SpatialPoint(body=traced.body, point=at(traced.point, z))

@@ -171,67 +171,69 @@ def test_a_slider_crank_by_hand() -> None:
 
 
 @pytest.mark.parametrize("name", SHIELDS)
-def test_the_way_up_ends_where_the_columns_move_nothing_any_more(name: str) -> None:
-    """By the closed form: next to the dead centre the columns' rates are nearly singular."""
+def test_the_way_up_ends_where_no_posture_is_beyond(name: str) -> None:
+    """By the closed form: at the dead centre the columns are as long as they can be."""
     data = read_machine(name)
     machine: Any = data.machine
-    (way,) = check_machine(data).ways
-    limit = way.beyond[1]
+    limit = check_machine(data).ways[0].beyond[1]
     assert limit is not None
-    near, rates, unknowns = machine.start(), [], len(way.drives)
+    near = machine.start()
     for share in (1.0 - np.geomspace(1.0, 1e-6, 400)).tolist():
         near = machine.extended(share * limit.travel, near)
-        rates.append(abs(np.linalg.det(machine.column_rates(near)[:unknowns, :unknowns])))
-    # the rates change by the square root of the distance from a fold
-    assert rates[-1] < 0.05 * rates[0]
+        assert near is not None
     beyond = machine.extended(limit.travel + math.copysign(1e-4, limit.travel), near)
     assert beyond is None or abs(beyond.rear_link - near.rear_link) > 0.05
 
 
 # --- what a colleague would say ---
 
-DOUBTS = {
-    "tip": ("front_base = [560, 700]", "front_base = [560, 1100]", "the tip wanders"),
+
+def places(**points: str) -> dict[str, str]:
+    """Pivots at other places, over a stroke that the machine then can go."""
+    return {"stroke_mm = 600": "stroke_mm = 530"} | {
+        rf"\n{name} = \[.*\]": f"\n{name} = {place}" for name, place in points.items()
+    }
+
+
+DOUBTS: dict[str, tuple[dict[str, str], str]] = {
+    "tip": ({r"front_base = \[560, 700\]": "front_base = [560, 1100]"}, "the tip wanders"),
     "tonnes": (
-        "rear_link = 900\nfront_link = 700\nshield = 4200\ncanopy = 5200\nfront_column_rods = 350\n"
-        "rear_column_rods = 350",
-        "rear_link = 0.9\nfront_link = 0.7\nshield = 4.2\ncanopy = 5.2",
+        {
+            r"rear_link = 900\nfront_link = 700\nshield = 4200\ncanopy = 5200(\n\w+_rods = 350)+": (
+                "rear_link = 0.9\nfront_link = 0.7\nshield = 4.2\ncanopy = 5.2"
+            )
+        },
         "are they in tonnes?",
     ),
-    "pull": ("front_head = [2300, 2480]", "front_head = [1400, 2480]", "rear_column pulls instead of pushing"),
+    "pull": (
+        {r"front_head = \[2300, 2480\]": "front_head = [1400, 2480]"},
+        "rear_column pulls instead of pushing",
+    ),
     "bores": (
-        "[masses_kg]",
-        "[bore_radius_mm]\nrear_shield = 120\nfront_shield = 120\n[masses_kg]",
+        {r"\[masses_kg\]": "[bore_radius_mm]\nrear_shield = 120\nfront_shield = 120\n[masses_kg]"},
         "diameters?",
+    ),
+    # the shortest column is 1.8 m: of one stage it would have to be longer than the other
+    "stages": (
+        places(rear_foot="[1150, 1900]"),
+        "times as long; a cylinder of one stage manages less than 1.9 times",
+    ),
+    "head below foot": (places(front_foot="[2050, 3260]"), "front_column: its head is below its foot"),
+    "crossed": (
+        places(rear_base="[700, 500]", front_base="[-300, 600]"),
+        "rear and front link cross each other",
     ),
 }
 
 
 @pytest.mark.parametrize("doubt", DOUBTS)
 def test_doubts(tmp_path: Path, doubt: str) -> None:
-    old, new, said = DOUBTS[doubt]
-    report = check_machine(load_machine(written(tmp_path, old, new)))
+    (changes, said), text = DOUBTS[doubt], OURS
+    for old, new in changes.items():
+        assert re.search(old, text)
+        text = re.sub(old, new, text)
+    report = check_machine(load_machine(written(tmp_path, text=text)))
     assert any(said in warning for warning in report.warnings), report.warnings
-
-
-# --- faults that nobody would have noticed ---
-
-
-@pytest.mark.parametrize(
-    ("changes", "said"),
-    [
-        # the shortest column is 1.8 m: of one stage it would have to be longer than the other
-        ({"rear_foot": "[1150, 1900]"}, "times as long; a cylinder of one stage manages less than 1.9 times"),
-        ({"front_foot": "[2050, 3260]"}, "front_column: its head is below its foot"),
-        ({"rear_base": "[700, 500]", "front_base": "[-300, 600]"}, "rear and front link cross each other"),
-    ],
-)
-def test_further_doubts(tmp_path: Path, changes: dict[str, str], said: str) -> None:
-    text = OURS.replace("stroke_mm = 600", "stroke_mm = 530")
-    for name, place in changes.items():
-        text = re.sub(rf"\n{name} = \[.*\]", f"\n{name} = {place}", text)
-    warnings = check_machine(load_machine(written(tmp_path, text=text))).warnings
-    assert any(said in warning for warning in warnings), warnings
 
 
 def test_a_stroke_may_be_asked_for_and_may_be_too_long() -> None:

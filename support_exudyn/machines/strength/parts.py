@@ -132,16 +132,6 @@ def _phase(segments: Sequence[Segment], load: float) -> float:
     return phase
 
 
-def johnson_load(euler: float, squash: float) -> float:
-    """Load [N] at which a column fails: Johnson's parabola for a stocky one, Euler's load for a slender one.
-
-    Arguments:
-        euler: P_E [N].
-        squash: P_y, at which its weakest section yields [N].
-    """
-    return euler if euler <= 0.5 * squash else squash * (1.0 - squash / (4.0 * euler))
-
-
 def seen_stages(cylinder: CylinderStrength, length: float) -> list[tuple[float, CylinderStage]]:
     """Lengths [m] of the stages that are seen when a cylinder is so long [m], with the stages, foot first.
 
@@ -180,7 +170,8 @@ def buckling_loads(cylinder: CylinderStrength, length: float) -> tuple[float, fl
     if cylinder.yield_stress is None:
         return euler, None
     squash = cylinder.yield_stress * min(stage.area for _, stage in seen)
-    return euler, johnson_load(euler, squash)
+    # slender, or stocky
+    return euler, euler if euler <= 0.5 * squash else squash * (1.0 - squash / (4.0 * euler))
 
 
 # --- tipping ---

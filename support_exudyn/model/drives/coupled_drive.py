@@ -52,20 +52,20 @@ class CoupledDrive(Drive):
 
     def extension(self, t: float) -> float:
         """Extension [m] at time t [s]."""
-        return self._value(self.lead.extension(t)) - self._at_start
+        return self._follow(self.lead.extension(t))[0]
 
     def speed(self, t: float) -> float:
         """Speed [m/s] at time t [s]; at a jump the value before it."""
-        return self._slope(self.lead.extension(t)) * self.lead.speed(t)
+        return self._follow(self.lead.extension(t))[1] * self.lead.speed(t)
 
     def speed_jump(self, t: float) -> float:
         """Jump of the speed [m/s], which is there where the lead's is."""
-        return self._slope(self.lead.extension(t)) * self.lead.speed_jump(t)
+        return self._follow(self.lead.extension(t))[1] * self.lead.speed_jump(t)
 
     @property
     def initial_speed(self) -> float:
         """Speed just after the start [m/s]."""
-        return self._slope(self.lead.extension(0.0)) * self.lead.initial_speed
+        return self._follow(self.lead.extension(0.0))[1] * self.lead.initial_speed
 
     @property
     def breaks(self) -> tuple[float, ...]:
@@ -76,12 +76,12 @@ class CoupledDrive(Drive):
         """Smallest and largest extension [m] within this time [s]."""
         low, high = self.lead.span(duration)
         turns = [low, high, *(one for one in self._turns if low < one < high)]
-        values = [self._value(one) - self._at_start for one in turns]
+        values = [self._follow(one)[0] for one in turns]
         return min(0.0, *values), max(0.0, *values)
 
     @cached_property
     def _at_start(self) -> float:
-        return self._value(0.0)
+        return _series(self.coefficients, self._place(0.0))
 
     @cached_property
     def _slopes(self) -> tuple[float, ...]:
@@ -103,14 +103,11 @@ class CoupledDrive(Drive):
         place = 2.0 * (extension - self.lowest) / self.reach - 1.0 if self.reach > 0.0 else 0.0
         return min(1.0, max(-1.0, place))
 
-    def _value(self, extension: float) -> float:
-        return _series(self.coefficients, self._place(extension))
-
-    def _slope(self, extension: float) -> float:
-        """Derivative of f by the lead's extension."""
-        if self.reach == 0.0:
-            return 0.0
-        return _series(self._slopes, self._place(extension)) * 2.0 / self.reach
+    def _follow(self, extension: float) -> tuple[float, float]:
+        """f of an extension of the lead, and its derivative by that."""
+        place = self._place(extension)
+        slope = _series(self._slopes, place) * 2.0 / self.reach if self.reach > 0.0 else 0.0
+        return _series(self.coefficients, place) - self._at_start, slope
 
 
 def following(

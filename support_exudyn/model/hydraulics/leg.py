@@ -53,18 +53,9 @@ from user_forces.values.units import (
 from user_forces.values.value import InputError, NonNegative, Positive, Real, Value, value
 
 CHECK_OPEN = "check valve open"
-TAKEN = (
-    "piston",
-    "rod",
-    "tube",
-    "line",
-    "tank",
-    "supply",
-    "inlet",
-    "rod_inlet",
-    "yield_valve",
-    "rod_relief",
-    "foot",
+TAKEN = (  # names of parts of a leg
+    *("piston", "rod", "tube", "line", "tank", "supply"),
+    *("inlet", "rod_inlet", "yield_valve", "rod_relief", "foot"),
 )
 
 
@@ -198,10 +189,6 @@ class HydraulicLeg(Shared, ActuatorModel, ABC):
                 f"{where}.end_stops = None: allowed with a second stage: stops of the outer one, "
                 "whose lowest place releases the foot valve"
             )
-        self._check_valves(where)
-
-    def _check_valves(self, where: str) -> None:
-        """Raise InputError if a valve joins rooms that are not there, or has the name of another part."""
         known = [*self.sources, *self.rooms]
         for name, valve in self.valves.items():
             if name in TAKEN or not name.isidentifier():

@@ -30,9 +30,9 @@ class LoadCourse(Value, ABC):
         """Share of the full force at a time t [s]."""
 
     @property
-    @abstractmethod
     def breaks(self) -> tuple[float, ...]:
-        """Times [s] at which a derivative jumps."""
+        """Times [s] at which a derivative jumps; none by default."""
+        return ()
 
     @property
     @abstractmethod
@@ -109,11 +109,6 @@ class HarmonicCourse(LoadCourse):
         return self.mean + math.sin(2.0 * math.pi / self.period * since + self.phase)
 
     @property
-    def breaks(self) -> tuple[float, ...]:
-        """There are none."""
-        return ()
-
-    @property
     def shortest_time(self) -> float:
         """One over the angular frequency [s]."""
         return self.period / (2.0 * math.pi)
@@ -183,9 +178,6 @@ class AppliedForce(ComingOn, Load):
     Arguments:
         body, point: what it acts on, see `Load`; it stays with the point of the body.
         full_force: in the end, forward and up [N]; a roof presses down, (0, -1e6).
-        start, end: between which it comes on [s], 0 <= start < end; both 0: it acts from the start on, and a
-            start "settled" is settled under it.
-        course: by which it is multiplied over time, in place of both.
     """
 
     full_force: Newtons[Vector2]
@@ -222,8 +214,6 @@ class AppliedTorque(ComingOn, MomentLoad):
     Arguments:
         body, other: see `MomentLoad`.
         full_torque: in the end, positive anticlockwise [N m].
-        start, end: between which it comes on [s], 0 <= start < end; both 0: it acts from the start on.
-        course: by which it is multiplied over time, in place of both.
     """
 
     full_torque: NewtonMetres[Real]
