@@ -19,7 +19,7 @@ from support_exudyn import (
     bore_area,
     reference_support,
 )
-from support_exudyn.model.pin_surroundings import contact_length, links_stiffness
+from support_exudyn.model.machine import contact_length, links_stiffness
 from user_forces import (
     STEEL,
     STEEL_35CRMO,

@@ -15,7 +15,7 @@ from studies.common.subject import Subject, to_accuracy
 from studies.contact_laws import catalogue
 from studies.contact_laws.catalogue import CYLINDER_LAWS, POWER_LAWS
 from support_exudyn import ClearancePin, ImpactStand, Result, Scenario, SolverSettings
-from support_exudyn.model.pin_surroundings import contact_length
+from support_exudyn.model.machine import contact_length
 from support_exudyn.scenario.timescales import loaded_contacts
 from support_exudyn.simulation.automatic_settings import cheapest, settings_for
 from user_forces import JournalBearing, JournalContact, NormalLaw

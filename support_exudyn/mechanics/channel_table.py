@@ -28,6 +28,7 @@ from support_exudyn.mechanics.channels import (
     table,
 )
 from support_exudyn.mechanics.constraints import Distance, Shift, Turn
+from support_exudyn.mechanics.hydraulic_legs import leg_channels
 from support_exudyn.mechanics.joint_channels import (
     AXES,
     IMPACT,
@@ -39,7 +40,6 @@ from support_exudyn.mechanics.joint_channels import (
     pin_channels,
     sizes,
 )
-from support_exudyn.mechanics.leg_channels import leg_channels
 from support_exudyn.mechanics.observed_run import Trajectory
 from support_exudyn.mechanics.reactions import UNDETERMINED, Loads
 from support_exudyn.mechanics.trajectory import Series

@@ -32,7 +32,7 @@ import numpy as np
 import numpy.typing as npt
 
 from user_forces.contact import ContactForce, JournalContact
-from user_forces.friction.law import FrictionLaw, TwoCoefficients
+from user_forces.friction.law import TwoCoefficients
 from user_forces.friction.laws import Ambrosio, Frictionless
 from user_forces.normal.law import LoadError
 
@@ -99,9 +99,8 @@ class SlidingPin:
         Real roots that decay are a journal that creeps back; they count where nothing vibrates.
         """
         vibrates = np.abs(self.roots.imag) > OSCILLATES * np.abs(self.roots)
-        told = self.roots[vibrates | (self.roots.real > 0.0)]
-        roots = told if told.size else self.roots
-        return complex(roots[int(np.argmax(roots.real))])
+        counted = self.roots[vibrates | (self.roots.real > 0.0)]
+        return complex(max(counted if counted.size else self.roots, key=lambda root: root.real))
 
     @property
     def growth(self) -> float:
@@ -112,8 +111,7 @@ class SlidingPin:
     def frequency(self) -> float:
         """Frequency of that motion [Hz]; 0: it does not vibrate."""
         root = self._root
-        vibrates = abs(root.imag) > OSCILLATES * abs(root)
-        return abs(root.imag) / (2.0 * math.pi) if vibrates else 0.0
+        return abs(root.imag) / (2.0 * math.pi) if abs(root.imag) > OSCILLATES * abs(root) else 0.0
 
     @property
     def friction(self) -> float:
@@ -194,16 +192,10 @@ def without_state(contact: JournalContact) -> JournalContact:
 
     That is what such a law tends to while the pin slides.
     """
-    friction = contact.friction
-    return (
-        with_friction(replace(contact, friction=Frictionless()), _sliding(friction))
-        if friction.has_state
-        else contact
-    )
-
-
-def _sliding(friction: FrictionLaw) -> float:
-    return float(getattr(friction, "sliding_coefficient", 0.0))
+    if not contact.friction.has_state:
+        return contact
+    coefficient = float(getattr(contact.friction, "sliding_coefficient", 0.0))
+    return with_friction(replace(contact, friction=Frictionless()), coefficient)
 
 
 def critical_friction(
@@ -228,31 +220,27 @@ def _crossing(
     journal: LoadedJournal, contact: JournalContact, largest: float, margin: Callable[[SlidingPin], float]
 ) -> float:
     """The smallest coefficient at which a margin is not positive; infinite if there is none up to `largest`."""
-    places: list[Matrix] = []
+    place: Matrix | None = None
 
-    def at(coefficient: float) -> float:
+    def lost(coefficient: float) -> bool:
+        nonlocal place
         try:
-            pin = sliding_pin(journal, with_friction(contact, coefficient), places[-1] if places else None)
+            pin = sliding_pin(journal, with_friction(contact, coefficient), place)
         except LoadError:
-            return -math.inf
-        places.append(pin.place)
-        return margin(pin)
+            return True
+        place = pin.place
+        return margin(pin) <= 0.0
 
-    before = 0.0
-    for coefficient in np.linspace(0.0, largest, SCANNED).tolist():
-        found = at(coefficient)
-        if found <= 0.0:
-            return _between(at, before, coefficient) if coefficient > 0.0 else 0.0
-        before = coefficient
+    low = 0.0
+    for high in np.linspace(0.0, largest, SCANNED).tolist():
+        if not lost(high):
+            low = high
+            continue
+        while high - low > PRECISE:  # by halving: the margin may jump there
+            middle = 0.5 * (low + high)
+            low, high = (low, middle) if lost(middle) else (middle, high)
+        return float(high)
     return math.inf
-
-
-def _between(margin: Callable[[float], float], low: float, high: float) -> float:
-    """Where a margin that is positive at `low` and not at `high` is lost, by halving: it may jump there."""
-    while high - low > PRECISE:
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if margin(middle) > 0.0 else (low, middle)
-    return high
 
 
 class _Pushes:

@@ -47,7 +47,7 @@ class LoadSeries:
 
 @dataclass(frozen=True)
 class LegSeries:
-    """A hydraulic leg at the records: see `leg_channels` for what its values are.
+    """A hydraulic leg at the records: see `hydraulic_legs` for what its values are.
 
     force: that pushes the ends apart (n,) [N]. energy: stored (n,) [J]. values: (n,) each, by name.
     """

@@ -8,12 +8,11 @@ from pydantic import model_validator
 from typing_extensions import Self
 
 from support_exudyn.model.linkage import PinPlace
-from support_exudyn.model.loads.load import ActingLoad, Load, LoadChannel
+from support_exudyn.model.loads.load import ActingLoad, LinkLoad, LoadChannel
 from support_exudyn.model.loads.springs import TorsionSpring
 from support_exudyn.model.pins import CompliantPin
 from user_forces.kernel import kernel
 from user_forces.values.units import (
-    Metres,
     NewtonMetreSecondsPerRadian,
     NewtonMetresPerRadian,
     NewtonSecondsPerMetre,
@@ -23,31 +22,18 @@ from user_forces.values.value import NonNegative, Positive, Vector2, value
 
 
 @value
-class _BushingForce(Load):
+class _BushingForce(LinkLoad):
     """The force of a linear bushing on its second body; d: way of that body's point against the first's.
 
         F = -(stiffness d + damping d')
 
     Arguments:
-        body, point: the second body and its point, see `Load`.
-        other, other_point: the first body and its point, start posture [m].
+        body, point: the second body and its point. other, other_point: the first, see `LinkLoad`.
         stiffness: forward and up [N/m]. damping: forward and up [N s/m].
     """
 
-    other: str
-    other_point: Metres[Vector2]
     stiffness: NewtonsPerMetre[Vector2]
     damping: NewtonSecondsPerMetre[Vector2]
-
-    def against(self, name: str) -> str:
-        """The opposite force acts on the first body."""
-        del name
-        return self.other
-
-    @property
-    def origin(self) -> Vector2:
-        """The opposite force acts at the first body's point."""
-        return self.other_point
 
     @property
     def coefficients(self) -> tuple[float, ...]:

@@ -20,7 +20,7 @@ from typing import ClassVar, NamedTuple
 
 from pydantic import model_validator
 
-from support_exudyn.model.simple_laws import fields_of, friction_of, law_with
+from support_exudyn.model.pins import fields_of, friction_of, law_with
 from user_forces.contact import FaceContact, SlotContact
 from user_forces.friction.law import FrictionLaw
 from user_forces.friction.laws import Frictionless

@@ -9,16 +9,16 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from typing import ClassVar, Final, Literal
+from typing import Any, ClassVar, Final, Literal
 
 from pydantic import model_validator
 
 from support_exudyn.model.linkage import PinPlace
 from support_exudyn.model.loads.load import ActingLoad
-from support_exudyn.model.simple_laws import USUAL_RESTITUTION, fields_of, friction_of, law_with
 from user_forces.backing import pin_stiffness
 from user_forces.contact import JournalContact
 from user_forces.friction.law import FrictionLaw
+from user_forces.friction.laws import Ambrosio, Frictionless
 from user_forces.journal import JournalBearing
 from user_forces.materials import (
     STEEL,
@@ -35,6 +35,7 @@ from user_forces.values.units import Metres
 from user_forces.values.value import InputError, Positive, Value, Vector2, short, value
 
 HERTZ_EXPONENT = 1.5
+USUAL_RESTITUTION = 0.9
 HERTZ = {"paper": external_contact_stiffness, "internal": internal_contact_stiffness}
 CYLINDERS: Final = "cylinders"
 Stiffness = Literal["cylinders", "paper", "internal"]
@@ -290,3 +291,40 @@ def _of_power(
             "allowed with this law: a number"
         )
     return normal
+
+
+# --- laws from few numbers, of pins and guides ---
+
+
+def friction_of(friction: float | FrictionLaw) -> FrictionLaw:
+    """Ambrosio's law with a sliding coefficient, none for 0; a law as it is."""
+    if isinstance(friction, FrictionLaw):
+        return friction
+    return Ambrosio(sliding_coefficient=friction) if friction != 0.0 else Frictionless()
+
+
+def law_with(law: type[NormalLaw], **asked: Any) -> NormalLaw:
+    """A law with a stiffness, a restitution and a rest velocity, as far as they are asked for and not None.
+
+    Raises InputError if one is asked for that it has not.
+    """
+    has = fields_of(law)
+    given = {name: number for name, number in asked.items() if number is not None}
+    for name, number in given.items():
+        if name not in has:
+            raise InputError(f"{name} = {short(number)}: {law.__name__} has none; allowed: to leave it out")
+    if "restitution" in has:
+        given.setdefault("restitution", USUAL_RESTITUTION)
+    return law(**given)
+
+
+def fields_of(law: Any) -> set[str]:
+    """Names of the fields of a class of laws. Raises InputError if it is none that can be made."""
+    is_law = isinstance(law, type) and issubclass(law, NormalLaw)
+    fields = getattr(law, "__dataclass_fields__", None) if is_law else None
+    if fields is not None:
+        return set(fields)
+    raise InputError(
+        f"law = {short(law)}: allowed: a class of normal laws that needs a stiffness and a restitution only, "
+        "such as Flores; with any other law make ClearancePin(contact=JournalContact(...))"
+    )

@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from support_exudyn.model.machine import Machine
-from support_exudyn.model.pin_surroundings import contact_length
+from support_exudyn.model.machine import Machine, contact_length
 from support_exudyn.model.pins import ClearancePin
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scenario.timescales import loaded_contacts

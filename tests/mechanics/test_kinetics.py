@@ -127,31 +127,6 @@ def slider_crank(crank: float, rod: float, angle: float) -> SliderCrank:
     )
 
 
-cranks = st.builds(slider_crank, crank=st.floats(0.02, 0.2), rod=st.floats(1.05, 5.0), angle=angles)
-
-
-@sometimes
-@given(machine=cranks, direction=angles)
-def test_slider_pin_feels_the_rod_about_the_crank_pin_and_the_slider(
-    machine: SliderCrank, direction: float
-) -> None:
-    # the crank cannot give way, as it is driven. Free are the angle of the rod about the crank pin, with
-    # m l^2/4 + I, and the slider along x: M = diag(m l^2/4 + I, m_s); the pin's eccentricity, rod minus slider,
-    # answers with J = ((-l sin b, -1), (l cos b, 0)) to (angle, x)
-    length = machine.rod_length
-    fall = -math.asin(machine.crank_length * math.sin(machine.start_angle) / length)  # angle of the rod
-    inertia = machine.rod_mass * length**2 / 4.0 + machine.rod_inertia
-    rate = np.array([[-length * math.sin(fall), -1.0], [length * math.cos(fall), 0.0]])
-    expected = rate @ np.diag([1.0 / inertia, 1.0 / machine.slider_mass]) @ rate.T
-    system = kinetics(machine.linkage(), "slider_pin")
-    n = unit(direction)
-    assert inverse_mass(system, np.zeros(9), "slider_pin") == pytest.approx(expected, abs=1e-11)
-    # rounding of inverse effective masses up to 12/kg; this one is 0.7/kg or more at rods of 1.05 cranks or
-    # longer
-    got = pin_mass(system, np.zeros(9), "slider_pin", direction)
-    assert got == pytest.approx(1.0 / float(n @ expected @ n), rel=1e-9)
-
-
 # --- what cannot move ---
 
 

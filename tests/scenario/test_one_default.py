@@ -14,7 +14,7 @@ from support_exudyn import ClearancePin, Scenario, reference_support
 from support_exudyn.files import parsed, read_value, scenario_of, table_of, toml_text
 from support_exudyn.files.scenarios.short_joints import ShortPin, simple_laws
 from support_exudyn.files.toml.shapes import GroupShape, field_shapes
-from support_exudyn.model.simple_laws import USUAL_RESTITUTION
+from support_exudyn.model.pins import USUAL_RESTITUTION
 from tests import strategies as some
 from user_forces import (
     STEEL,

@@ -26,7 +26,7 @@ from studies.claims.plausible_runs import CASES, scenario
 from studies.common import paper_machine
 from support_exudyn import CubicStep, HydraulicSupport, UniformSpeed, reference_support
 from support_exudyn.model.linkage import lumped
-from support_exudyn.model.pin_surroundings import links_stiffness
+from support_exudyn.model.machine import links_stiffness
 from user_forces import STEEL, STEEL_35CRMO, InputError, LankaraniNikravesh, PinInBore
 from user_forces.backing import pin_stiffness
 

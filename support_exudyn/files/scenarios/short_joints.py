@@ -16,10 +16,8 @@ from pydantic import Field, model_validator
 
 from support_exudyn.files.toml.shapes import Names
 from support_exudyn.model.guides import ClearanceGuide, Gaps, Guide, IdealGuide
-from support_exudyn.model.machine import Machine
-from support_exudyn.model.pin_surroundings import contact_length, links_stiffness
-from support_exudyn.model.pins import CYLINDERS, ClearancePin, IdealPin, Stiffness, on_cylinders
-from support_exudyn.model.simple_laws import friction_of
+from support_exudyn.model.machine import Machine, contact_length, links_stiffness
+from support_exudyn.model.pins import CYLINDERS, ClearancePin, IdealPin, Stiffness, friction_of, on_cylinders
 from user_forces.backing import in_series, pin_stiffness
 from user_forces.friction.law import FrictionLaw
 from user_forces.friction.laws import Frictionless

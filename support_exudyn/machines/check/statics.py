@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -66,24 +66,23 @@ def statics(
     return Statics(**found, error=error)
 
 
-@dataclass(frozen=True)
-class DegreesOfFreedom:
+class DegreesOfFreedom(NamedTuple):
     """Degrees of freedom of a linkage.
 
     Arguments:
         counted: by Gruebler's formula, 3 a body less 2 a pin or block and 1 a slot, gear or strut. A block does
             not turn in its guide, a pin in a slot does; a strut is an actuator that no drive moves.
-        formula: that count with its numbers.
         free: by the rank of the constraints' Jacobian.
         driven: how many parts are.
         left: by the rank with the driven parts held.
+        formula: Gruebler's count with its numbers.
     """
 
     counted: int
-    formula: str
     free: int
     driven: int
     left: int
+    formula: str
 
     def data(self) -> dict[str, int]:
         """The degrees of freedom as plain data, by these names."""
@@ -111,17 +110,8 @@ def mobility(linkage: Linkage) -> DegreesOfFreedom:
     terms = [f"{'2 x ' * (each == 2)}{count} {what}" for each, count, what in held if count or what == "pins"]
     conditions = Conditions(linkage)
     rows, owners = conditions.rows(conditions.still), conditions.kinetics.owners()
+    rows = rows / np.maximum(np.linalg.norm(rows, axis=1, keepdims=True), SAME)
     driven = np.array([kind in DRIVEN and name in linkage.driven for kind, name in owners], dtype=bool)
-    return DegreesOfFreedom(
-        counted=3 * bodies - sum(each * count for each, count, _ in held),
-        formula=" - ".join([f"3 x {bodies} bodies", *terms]),
-        free=3 * bodies - _rank(rows[~driven]),
-        driven=len(linkage.driven),
-        left=3 * bodies - _rank(rows),
-    )
-
-
-def _rank(rows: Array) -> int:
-    """Rank of rows, each as long as the others."""
-    lengths = np.linalg.norm(rows, axis=1, keepdims=True)
-    return int(np.linalg.matrix_rank(rows / np.where(lengths > 0.0, lengths, 1.0), tol=SAME))
+    free, left = (3 * bodies - np.linalg.matrix_rank(some, tol=SAME) for some in (rows[~driven], rows))
+    counted, formula = 3 * bodies - sum(each * count for each, count, _ in held), f"3 x {bodies} bodies"
+    return DegreesOfFreedom(counted, int(free), len(linkage.driven), int(left), " - ".join([formula, *terms]))

@@ -250,8 +250,7 @@ class HydraulicCylinder(HydraulicLeg):
     chamber has more pressure than the pump. Oil pulls as well as it pushes unless a `vapour_pressure` says
     where it boils. A run in which the piston comes to an end of its cylinder is refused.
 
-    Arguments:
-        bore_area: of the piston, all cylinders of a pair together [m^2], > 0.
+    Arguments: those of `HydraulicLeg`, and
         rod_side_area: the annulus around the rod, all together [m^2], > 0.
         oil_length: length of the oil under the piston at the start [m], > 0, less than the actuator.
         rod_side_length: length of the oil around the rod at the start [m], > 0: by so much it can extend.
@@ -268,7 +267,6 @@ class HydraulicCylinder(HydraulicLeg):
         check_valve: holds the oil of the piston side; None: where it has more pressure than the pump, oil flows
             back.
         rod_relief: lets oil out of the rod side above a pressure; None: nothing does.
-        The others are those of `HydraulicLeg`.
     """
 
     extensive: ClassVar[tuple[str, ...]] = (

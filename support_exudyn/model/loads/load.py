@@ -188,6 +188,41 @@ class Load(ActingLoad, ABC):
 
 
 @value
+class LinkLoad(Load, ABC):
+    """A force on a point of a body, and the opposite one on a point of another.
+
+    Arguments:
+        body, point: one end, see `Load`.
+        other, other_point: the other end: name of another body, or "ground", and its point, start posture [m].
+        other_lateral: how far to the right of the machine's plane the other end is in space [m].
+    """
+
+    other: str = GROUND
+    other_point: Metres[Vector2]
+    other_lateral: Metres[Real] = 0.0
+
+    @model_validator(mode="after")
+    def _acts_between_two(self) -> Self:
+        check_two(self.body, self.other)
+        return self
+
+    def against(self, name: str) -> str:
+        """The opposite force acts on the other body."""
+        del name
+        return self.other
+
+    @property
+    def origin(self) -> Vector2:
+        """The opposite force acts at the other end."""
+        return self.other_point
+
+    @property
+    def origin_lateral(self) -> float:
+        """How far to the right the other end is [m]."""
+        return self.other_lateral
+
+
+@value
 class MomentLoad(ActingLoad, ABC):
     """A moment on a body, and the opposite one on another.
 

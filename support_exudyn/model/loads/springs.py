@@ -7,8 +7,7 @@ from typing import ClassVar
 from pydantic import model_validator
 from typing_extensions import Self
 
-from support_exudyn.model.linkage import GROUND
-from support_exudyn.model.loads.load import COINCIDE, Load, LoadChannel, MomentLoad, check_two
+from support_exudyn.model.loads.load import COINCIDE, LinkLoad, LoadChannel, MomentLoad
 from user_forces.kernel import kernel
 from user_forces.values.units import (
     Metres,
@@ -18,11 +17,11 @@ from user_forces.values.units import (
     NewtonsPerMetre,
     Radians,
 )
-from user_forces.values.value import NonNegative, Real, Vector2, value
+from user_forces.values.value import NonNegative, Real, value
 
 
 @value
-class SpringDamper(Load):
+class SpringDamper(LinkLoad):
     """A spring and a damper side by side, along the line between points of two bodies.
 
         F = -k (l - l0) - c dl/dt
@@ -31,25 +30,18 @@ class SpringDamper(Load):
     The spring pulls as well as it pushes. Where the points meet in the course of a run the line has no
     direction, and the run is refused.
 
-    Arguments:
-        body, point: one end, see `Load`.
-        other, other_point: the other end: name of another body, or "ground", and its point, start posture [m].
-        other_lateral: how far to the right of the machine's plane the other end is in space [m].
+    Arguments: those of `LinkLoad`, and
         stiffness: k [N/m], >= 0.
         free_length: l0 at which the spring carries nothing [m], >= 0.
         damping: c [N s/m], >= 0.
     """
 
-    other: str = GROUND
-    other_point: Metres[Vector2]
-    other_lateral: Metres[Real] = 0.0
     stiffness: NewtonsPerMetre[NonNegative] = 0.0
     free_length: Metres[NonNegative] = 0.0
     damping: NewtonSecondsPerMetre[NonNegative] = 0.0
 
     @model_validator(mode="after")
     def _has_a_direction(self) -> Self:
-        check_two(self.body, self.other)
         if self.start_length <= COINCIDE:
             raise ValueError(
                 f"other_point = {self.other_point} m: is the point of the other end, so that the spring has no "
@@ -63,21 +55,6 @@ class SpringDamper(Load):
     def start_length(self) -> float:
         """Distance of its ends in the start posture [m], in the plane."""
         return math.dist(self.point, self.other_point)
-
-    def against(self, name: str) -> str:
-        """The opposite force acts on the other body."""
-        del name
-        return self.other
-
-    @property
-    def origin(self) -> Vector2:
-        """The opposite force acts at the other end."""
-        return self.other_point
-
-    @property
-    def origin_lateral(self) -> float:
-        """How far to the right the other end is [m]."""
-        return self.other_lateral
 
     @staticmethod
     @kernel

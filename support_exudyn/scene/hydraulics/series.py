@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 import numpy.typing as npt
 
-from support_exudyn.mechanics.leg_channels import PRESSURES, PUMP
+from support_exudyn.mechanics.hydraulic_legs import PRESSURES, PUMP
 from support_exudyn.mechanics.trajectory import LegSeries, OilEvent, Series
 from support_exudyn.scene.compilation import entry
 from support_exudyn.scene.hydraulics.fill import MET_PRESSURE, Legs
