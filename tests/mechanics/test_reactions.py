@@ -36,8 +36,6 @@ from user_forces import Ambrosio, FrictionLaw, Frictionless, friction_law
 from user_forces.contact import SlipHistory
 from user_forces.contact_state import PinMemory
 
-STROKE = CubicStep(stroke=0.05, start=0.02, end=0.2)
-
 
 def heavy() -> Scenario:
     """With guides between bodies that turn."""
