@@ -61,10 +61,11 @@ class FrictionJoint:
 
     def slips(self, motion: BodyMotion, carried: Series | None = None) -> Series:
         """The slip (n,) [m/s] under multipliers (n, conditions); without, a pin in a slot does not turn."""
-        speed = np.zeros(len(motion.position)) if self.slide is None else motion.sliding(self.slide)[1]
+        speed = np.zeros(motion.count) if self.slide is None else motion.sliding(self.slide)[1]
         if carried is None and self.slide is not None:
             return speed
-        return speed + self._levers(carried, len(speed)) * (motion.spin(self.second) - motion.spin(self.first))
+        levers = self._levers(np.zeros((motion.count, 2)) if carried is None else carried)
+        return speed + levers * (motion.spin(self.second) - motion.spin(self.first))
 
     def forces(self, motion: BodyMotion, carried: Series, deflection: Series) -> Series:
         """The friction force (n,) [N], from multipliers (n, conditions) and states of the law (n,) [m]."""
@@ -73,16 +74,15 @@ class FrictionJoint:
 
     def apply(self, total: Series, motion: BodyMotion, carried: Series, friction: Series) -> None:
         """Add a friction force (n,) [N] to the forces on all coordinates (n, 3 b)."""
-        moment = self._levers(carried, len(friction)) * friction
+        moment = self._levers(carried) * friction
         for body, sign in ((self.second, 1.0), (self.first, -1.0)):
             twist(total, motion, body, sign * moment)
             if self.slide is not None:
                 point = motion.place(self.slide.body, self.slide.point)
                 push(total, motion, body, sign * friction[:, None] * motion.sliding(self.slide)[0], point)
 
-    def _levers(self, carried: Series | None, count: int) -> Series:
-        held = [(0.0, 0.0)] * count if carried is None else _both(carried)
-        return np.array([self.lever(one) for one in held])
+    def _levers(self, carried: Series) -> Series:
+        return np.array([self.lever(one) for one in _both(carried)])
 
 
 def _both(carried: Series) -> list[Carried]:

@@ -158,26 +158,23 @@ class ClearancePin(Pin):
         Raises InputError that names what does not fit, its value and what is allowed.
         """
         bearing = JournalBearing(bore_radius=bore_radius, clearance=clearance)
-        if on_cylinders(stiffness, length, law):
-            stiffness = CYLINDERS
-        materials = bore_material, journal_material
+        materials, kind = (bore_material, journal_material), law or Exact
+        given = {"restitution": restitution, "rest_velocity": rest_velocity}
         normal: NormalLaw
-        if stiffness == CYLINDERS:
-            normal = _on_cylinders(
-                bearing, law or Exact, length, backing_stiffness, restitution, rest_velocity, materials
-            )
+        if on_cylinders(stiffness, length, law):
+            normal, length = _on_cylinders(bearing, kind, length, backing_stiffness, materials, given), None
         elif backing_stiffness is not None:
             raise InputError(
                 f"backing_stiffness = {backing_stiffness:g}: is of stiffness = {CYLINDERS!r} alone; "
                 "allowed: to leave it out"
             )
         else:
-            normal = _of_power(bearing, law or Exact, stiffness, restitution, rest_velocity, materials)
+            normal = _of_power(bearing, kind, stiffness, materials, given)
         return cls(
             contact=JournalContact(bearing=bearing, normal=normal, friction=friction_of(friction)),
             bore=bore,
             eccentricity=eccentricity,
-            length=None if stiffness == CYLINDERS else length,
+            length=length,
             bore_material=bore_material,
             journal_material=journal_material,
         )
@@ -239,11 +236,10 @@ def _on_cylinders(
     law: type[NormalLaw],
     length: float | None,
     backing: float | None,
-    restitution: float | None,
-    rest_velocity: float | None,
     materials: tuple[Material, Material],
+    given: Mapping[str, float | None],
 ) -> PinInBore:
-    """The pin along its length, with the damping of a law."""
+    """The pin along its length, with the damping of a law; given: restitution and rest velocity."""
     fields_of(law)
     if length is None:
         raise InputError(f"length: missing; a pin with stiffness = {CYLINDERS!r} has one; allowed: > 0 m")
@@ -254,15 +250,14 @@ def _on_cylinders(
         )
     if backing is None:
         backing = pin_stiffness(bearing.journal_radius, length, materials[1])
-    own = {} if rest_velocity is None else {"rest_velocity": rest_velocity}
+    numbers = {name: number for name, number in given.items() if number is not None}
     return PinInBore(
         bearing=bearing,
         length=length,
         effective_modulus=effective_modulus(*materials),
-        restitution=USUAL_RESTITUTION if restitution is None else restitution,
         backing_stiffness=None if backing == math.inf else backing,
         damping=law.__name__,
-        **own,
+        **{"restitution": USUAL_RESTITUTION, **numbers},
     )
 
 
@@ -270,22 +265,21 @@ def _of_power(
     bearing: JournalBearing,
     law: type[NormalLaw],
     stiffness: str | float | None,
-    restitution: float | None,
-    rest_velocity: float | None,
     materials: tuple[Material, Material],
+    given: Mapping[str, float | None],
 ) -> NormalLaw:
-    """A law of a stiffness and a restitution at most."""
+    """A law of a stiffness and a restitution at most; given: restitution and rest velocity."""
     if stiffness is None and "stiffness" in fields_of(law):
         stiffness = "paper"
-    named, number = isinstance(stiffness, str), stiffness
+    number = stiffness
     if isinstance(stiffness, str) and "stiffness" in fields_of(law):
         if stiffness not in HERTZ:
             allowed = ", ".join(map(repr, (CYLINDERS, *HERTZ)))
             hint = "; what was 'external' is called 'paper'" if stiffness == "external" else ""
             raise InputError(f"stiffness = {short(stiffness)}: allowed: {allowed} or a number, > 0{hint}")
         number = HERTZ[stiffness](bearing, *materials)
-    normal = law_with(law, stiffness=number, restitution=restitution, rest_velocity=rest_velocity)
-    if named and getattr(normal, "exponent", HERTZ_EXPONENT) != HERTZ_EXPONENT:
+    normal = law_with(law, stiffness=number, **given)
+    if isinstance(stiffness, str) and getattr(normal, "exponent", HERTZ_EXPONENT) != HERTZ_EXPONENT:
         raise InputError(
             f"stiffness = {stiffness!r}: is of K depth^{HERTZ_EXPONENT}, and {law.__name__} is not; "
             "allowed with this law: a number"

@@ -45,19 +45,17 @@ def support_findings(data: MachineData, machine: FourBarShield, way: DriveWay) -
         way: of its columns, which extend alike.
     """
     tip = way.motion.place("canopy", way.linkage.points["tip"].point)[:, 0]
-    wander = float(np.ptp(tip))
-    allowed = f"{RULE} allows {_mm(WANDER)} mm"
+    wander, allowed = float(np.ptp(tip)), f"{RULE} allows {_mm(WANDER)} mm"
+    met = "met" if wander <= WANDER else "NOT met"
+    doubts = [f"the tip wanders {_mm(wander)} mm over the used height; {allowed}"] * (wander > WANDER)
+    doubts += _posture_doubts(way)
+    for name in machine.STRUTS:
+        doubts += _column_doubts(way, name)
     return Findings(
         facts=[
-            f"tip wander: x from {_mm(tip.min())} to {_mm(tip.max())} mm, {_mm(wander)} mm; {allowed}: "
-            f"{'met' if wander <= WANDER else 'NOT met'}"
+            f"tip wander: x from {_mm(tip.min())} to {_mm(tip.max())} mm, {_mm(wander)} mm; {allowed}: {met}"
         ],
-        warnings=[
-            *([f"the tip wanders {_mm(wander)} mm over the used height; {allowed}"] if wander > WANDER else []),
-            *_posture_doubts(way),
-            *(doubt for name in machine.STRUTS for doubt in _column_doubts(way, name)),
-            *_file_doubts(data, machine),
-        ],
+        warnings=[*doubts, *_file_doubts(data, machine)],
         notes=list(_missing(data, machine)),
         numbers={"tip_wander_m": wander, "tip_wander_allowed_m": WANDER},
     )
@@ -90,20 +88,17 @@ def _turn(start: Series, end: Series, point: Series) -> Series:
 
 def _column_doubts(way: DriveWay, name: str) -> Iterator[str]:
     """Warnings on a column over the stroke: pull, slope and length."""
-    strut, travels = way.linkage.actuators[name], [one.travel for one in way.moved]
-    foot, head = (
-        way.motion.place(body, point)
-        for body, point in ((strut.foot, strut.foot_point), (strut.head, strut.head_point))
-    )
-    rise, lengths = (head - foot)[:, 1], np.hypot(*(head - foot).T)
+    strut = way.linkage.actuators[name]
+    x, rise = way.motion.span(strut).T
+    lengths = np.hypot(x, rise)
     if strut.foot == GROUND:  # a ram works both ways
         weight = 9.81 * sum(body.mass for body in way.linkage.bodies.values())
-        pushes = np.array([one.forces.actuators[name] for one in way.moved])
-        pulls = [travel for travel, push in zip(travels, pushes, strict=True) if push < -HELD * weight]
+        pushes = [one.forces.actuators[name] for one in way.moved]
+        pulls = [one.travel for one, push in zip(way.moved, pushes, strict=True) if push < -HELD * weight]
         if pulls:
             yield (
                 f"{name} pulls instead of pushing between stroke {_mm(pulls[0])} and {_mm(pulls[-1])} mm, by "
-                f"up to {-1e-3 * pushes.min():.2f} kN"
+                f"up to {-1e-3 * min(pushes):.2f} kN"
             )
         slope = math.asin(float(np.min(np.abs(rise) / lengths)))
         if slope < FLAT:

@@ -132,22 +132,20 @@ class StandReport:
         return {**_plain(self), "cylinders": cylinders}
 
 
-def _is_result(item: Any) -> bool:
-    """Whether an item has fields: it is of a data class, or a tuple with names."""
-    return is_dataclass(item) or hasattr(item, "_fields")
-
-
 def _plain(item: Any) -> Any:
-    """A result as numbers, texts, lists and mappings."""
-    if _is_result(item):
-        names = [one.name for one in fields(item)] if is_dataclass(item) else item._fields
-        return {_key(name, getattr(item, name)): _plain(getattr(item, name)) for name in names}
+    """A result as numbers, texts, lists and mappings; keys of fields end by the unit of their numbers."""
+    if names := _fields(item):
+        found = {}
+        for name in names:
+            inner = getattr(item, name)
+            nested = isinstance(inner, Mapping) and any(map(_fields, inner.values()))
+            found[name if nested or name not in UNIT_OF else f"{name}_{UNIT_OF[name]}"] = _plain(inner)
+        return found
     if isinstance(item, Mapping):
         return {f"{key:g}" if isinstance(key, float) else key: _plain(one) for key, one in item.items()}
     return [_plain(one) for one in item] if isinstance(item, (list, tuple)) else item
 
 
-def _key(name: str, item: Any) -> str:
-    """The key of a field, which ends by the unit of its numbers."""
-    nested = isinstance(item, Mapping) and any(map(_is_result, item.values()))
-    return name if nested or name not in UNIT_OF else f"{name}_{UNIT_OF[name]}"
+def _fields(item: Any) -> Sequence[str]:
+    """Names of the fields of a data class or of a tuple with names; none of what is no result."""
+    return [one.name for one in fields(item)] if is_dataclass(item) else getattr(item, "_fields", ())
