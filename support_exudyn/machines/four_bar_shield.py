@@ -178,13 +178,8 @@ class FourBarShield(Machine, ABC):
             hinge=i,
             tip=moved(self.tip, self.hinge, i, canopy),
         )
-        ends = {
-            pivot: self.place(body, pivot, known)
-            for strut in self.STRUTS.values()
-            for body, pivot in strut
-            if body != GROUND
-        }
-        return replace(known, ends=ends)
+        sides = [side for strut in self.STRUTS.values() for side in strut if side[0] != GROUND]
+        return replace(known, ends={pivot: self.place(body, pivot, known) for body, pivot in sides})
 
     def start(self) -> Posture:
         """Posture with a level canopy and the hinge at its start height.
@@ -241,8 +236,7 @@ class FourBarShield(Machine, ABC):
     def column_lengths(self, posture: Posture) -> tuple[float, float]:
         """Lengths [m] of the support's columns, in the order of `STRUTS`."""
         first, second = (
-            distance(self.place(*strut.foot, posture), self.place(*strut.head, posture))
-            for strut in self.STRUTS.values()
+            distance(*(self.place(*side, posture) for side in strut)) for strut in self.STRUTS.values()
         )
         return first, second
 

@@ -184,7 +184,7 @@ def way_of(
         farther: how far beyond both ends a dead centre is searched for [m].
     """
     start = (0.0, conditions.still)
-    search = _Search(conditions, drives)
+    search = Search(conditions, drives)
     up, down = search.march(start, goal[1], steps), list[Station]()
     if not (search.crank and goal[1] and up and up[-1][0] == goal[1]):
         down = search.march(start, goal[0], steps)
@@ -231,7 +231,7 @@ def _reach(linkage: Linkage, drives: tuple[str, ...], resting: Sequence[str]) ->
     return reach
 
 
-class _Search:
+class Search:
     """Search for postures of a linkage, by the travel of its driven parts.
 
     Arguments:

@@ -18,10 +18,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from support_exudyn.machines.check.drive_way import Search
 from support_exudyn.machines.check.statics import GRAVITY, Array
 from support_exudyn.machines.four_bar_shield import FourBarShield
 from support_exudyn.machines.machine_data import MachineData
-from support_exudyn.mechanics.closing import Conditions, moved_on
+from support_exudyn.mechanics.closing import Conditions
 from support_exudyn.mechanics.kinetics import kinetics_of
 from support_exudyn.mechanics.postures import laid_out
 from support_exudyn.model.linkage import GROUND, Linkage
@@ -84,17 +85,13 @@ def used_postures(data: MachineData, count: int) -> list[UsedPosture]:
     if stroke is None or not legs:
         return [UsedPosture(0.0, linkage)]
     conditions, closed = Conditions(led), kinetics_of(linkage)
-    at, reached, postures = conditions.still, 0.0, []
-    for goal in np.linspace(0.0, stroke, count).tolist():
-        at, share = moved_on(conditions, at, dict.fromkeys(legs, goal))
-        if share < 1.0:
-            raise InputError(
-                f"stroke = {stroke:.6g} m: the linkage locks before; allowed: up to "
-                f"{reached + share * (goal - reached):.4g} m"
-            )
-        reached = goal
-        postures.append(UsedPosture(goal, laid_out(closed, at / conditions.arms)))
-    return postures
+    start = (0.0, conditions.still)
+    stations = [start, *Search(conditions, legs).march(start, stroke, count - 1)]
+    if stations[-1][0] != stroke:
+        raise InputError(
+            f"stroke = {stroke:.6g} m: the linkage locks before; allowed: up to {stations[-1][0]:.4g} m"
+        )
+    return [UsedPosture(travel, laid_out(closed, moved / conditions.arms)) for travel, moved in stations]
 
 
 class RoofStatics:

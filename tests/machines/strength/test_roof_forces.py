@@ -12,6 +12,7 @@ from scipy.optimize import linprog
 
 from support_exudyn.files.machines import shipped
 from support_exudyn.machines.check.statics import GRAVITY
+from support_exudyn.machines.check.statics import statics as check_statics
 from support_exudyn.machines.strength.roof_forces import (
     Limits,
     RoofForce,
@@ -115,6 +116,12 @@ def test_forces_on_every_body_add_up_to_nothing(
         size = 1e-10 * sum(float(np.abs(part).sum()) for part, _ in on[name])
         assert np.abs(forces).max() <= size, name
         assert abs(moment) <= 10.0 * size, name
+    # without a roof they are the static forces of a check, to rounding of 1e5 N
+    held, bare = check_statics(linkage, np.zeros(3 * len(linkage.bodies))), RoofForce(0.0, contact.rear)
+    assert held.error < 1e-6
+    for name, pin in statics.pins(bare).items():
+        assert held.pins[name] == pytest.approx(pin, abs=1e-6)
+    assert held.actuators == pytest.approx(pushes_of(statics, bare), abs=1e-6)
 
 
 # --- limits ---
