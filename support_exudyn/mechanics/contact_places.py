@@ -276,11 +276,11 @@ def with_mass(joint: AnyJoint, name: str, linkage: Linkage, free: Kinetics) -> A
     The harmonic mean of the effective masses at its places of contact in the start posture. linkage: in that
     posture. free: with all clearance joints open.
     """
-    is_pin = isinstance(joint, ClearancePin)
-    law: Any = joint.contact.normal if isinstance(joint, ClearancePin) else joint.normal
-    places = (
-        contact_places(linkage, {name: joint}, {}) if is_pin else contact_places(linkage, {}, {name: joint})
-    )
+    law: Any
+    if isinstance(joint, ClearancePin):
+        law, places = joint.contact.normal, contact_places(linkage, {name: joint}, {})
+    else:
+        law, places = joint.normal, contact_places(linkage, {}, {name: joint})
     still, inverses = np.zeros(3 * len(free.linkage.bodies)), []
     for place in places.values():
         inverse = free.inverse_mass(still, contact_rate(free.motion(still), place))

@@ -16,7 +16,6 @@ from support_exudyn.mechanics.acting_loads import add_load, load_series
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.closing import Conditions, moved_on, newton
 from support_exudyn.mechanics.constraints import constraints_of
-from support_exudyn.mechanics.drive_acceleration import accelerations
 from support_exudyn.mechanics.kinetics import Kinetics, Matrix, kinetics_of, weight_of
 from support_exudyn.mechanics.pin_stability import (
     LoadedJournal,
@@ -26,7 +25,7 @@ from support_exudyn.mechanics.pin_stability import (
     with_friction,
     without_state,
 )
-from support_exudyn.mechanics.reactions import equations
+from support_exudyn.mechanics.reactions import accelerations, equations
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.drives.drive import Reciprocating
 from support_exudyn.model.linkage import Linkage

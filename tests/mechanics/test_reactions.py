@@ -29,8 +29,8 @@ from support_exudyn import (
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.constraints import constraints_of, turning
 from support_exudyn.mechanics.contact_places import RelativeMotion, series
-from support_exudyn.mechanics.drive_acceleration import accelerations
 from support_exudyn.mechanics.kinetics import kinetics_of
+from support_exudyn.mechanics.reactions import accelerations
 from tests.cases.run_cases import loose_support, paper_contact, support
 from user_forces import Ambrosio, FrictionLaw, Frictionless, friction_law
 from user_forces.contact import SlipHistory

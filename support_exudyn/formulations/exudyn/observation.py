@@ -14,11 +14,17 @@ from support_exudyn.mechanics.acting_loads import add_load, load_series
 from support_exudyn.mechanics.body_motion import cross
 from support_exudyn.mechanics.channels import FOLLOWING, DataNeeds
 from support_exudyn.mechanics.constraints import joints_held
-from support_exudyn.mechanics.drive_acceleration import accelerations_of
 from support_exudyn.mechanics.joint_friction import friction_series
 from support_exudyn.mechanics.kinetics import weight_of
 from support_exudyn.mechanics.observed_run import Trajectory
-from support_exudyn.mechanics.reactions import bearing_load, equations, joint_forces, push, push_apart
+from support_exudyn.mechanics.reactions import (
+    accelerations_of,
+    bearing_load,
+    equations,
+    joint_forces,
+    push,
+    push_apart,
+)
 from support_exudyn.mechanics.trajectory import ContactSeries, LegSeries, LoadSeries, Series
 from support_exudyn.model.linkage import Linkage
 
