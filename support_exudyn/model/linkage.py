@@ -333,7 +333,11 @@ class Linkage(Value):
             raise ValueError(f"bodies.{GROUND}: the name of what does not move; call the body otherwise")
         wheels = {("gears", name): (one.first, one.second) for name, one in self.gears.items()}
         pairs = {joint: (one, other) for joint, ((one, _), (other, _)) in self.joints.items()} | wheels
-        used = [(f"{part}.{name}", body) for (part, name), pair in pairs.items() for body in pair]
+        used = [
+            (f"{part}.{name}" + ".against" * (part == "slides" and n == 1), body)
+            for (part, name), pair in pairs.items()
+            for n, body in enumerate(pair)
+        ]
         used += [(f"points.{name}", one.body) for name, one in self.points.items()]
         used += [(f"gears.{k}.carrier", g.carrier) for k, g in self.gears.items() if g.carrier is not None]
         moving = [(f"cranks.{name}", one.body) for name, one in self.cranks.items()]
