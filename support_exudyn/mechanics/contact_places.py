@@ -148,7 +148,8 @@ class ContactPlace:
         bore, journal = motion.point(self.bore, self.bore_point), motion.point(self.journal, self.journal_point)
         apart, rate = journal.position - bore.position, journal.velocity - bore.velocity
         if not self.in_slot:
-            return series(self.contact, RelativeMotion(*apart.T, *rate.T, bore.spin, journal.spin), memories)
+            (x, y), (vx, vy) = apart.T, rate.T
+            return series(self.contact, RelativeMotion(x, y, vx, vy, bore.spin, journal.spin), memories)
         c, s = math.cos(self.direction), math.sin(self.direction)
         axes = (c, s, 0.0)[: motion.SHIFTS], (-s, c, 0.0)[: motion.SHIFTS]
         along, across = (motion.carried(self.bore, axis) for axis in axes)

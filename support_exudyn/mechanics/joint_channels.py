@@ -94,7 +94,9 @@ def _of(what: str, unite: Callable[[Series], Series]) -> Callable[[Sections], Se
     return lambda sections: np.asarray(unite(np.array([getattr(one, what) for one in sections])))
 
 
-_SUM, _LARGEST, _MEAN = (partial(unite, axis=0) for unite in (np.sum, np.max, np.mean))
+_SUM: Callable[[Series], Series] = partial(np.sum, axis=0)
+_LARGEST: Callable[[Series], Series] = partial(np.max, axis=0)
+_MEAN: Callable[[Series], Series] = partial(np.mean, axis=0)
 _STATE: Row = ("deflection", "m", "state of the friction law", _of("deflection", _SUM))
 
 

@@ -182,7 +182,7 @@ def _bearings(
         )
     in_actuators = {body for slide in linkage.slides.values() for body in (slide.against, slide.body)}
     # the first pin of a body of a pair holds it sideways
-    first_pins = {body: key for key, pin in reversed(linkage.pins.items()) for body, _ in pin.sides}
+    first_pins = {body: key for key, pin in reversed(list(linkage.pins.items())) for body, _ in pin.sides}
     holds: frozenset[Literal["tilt", "along", "turn"]] = frozenset({"tilt", "along"})
     if in_actuators & {*paired}:
         holds = frozenset({"along"})

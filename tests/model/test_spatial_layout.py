@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -156,7 +157,8 @@ def test_second_moments_are_those_of_a_cloud_of_points(
 @pytest.mark.parametrize("moments", [(1.0, 1.0, 0.0), (-1.0, 3.0, 0.0), (1.0, 1.0, 1.5), (0.5, 1.5, 0.9)])
 def test_impossible_second_moments_are_refused(moments: tuple[float, float, float]) -> None:
     inertia = 2.0 if moments != (1.0, 1.0, 0.0) else 3.0
-    for kind in (Part, Body):
+    kinds: tuple[Any, ...] = (Part, Body)
+    for kind in kinds:
         with pytest.raises(InputError, match="moments"):
             kind(mass=1.0, centre=(0.0, 0.0), inertia=inertia, moments=moments)
 

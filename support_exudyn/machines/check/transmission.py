@@ -106,7 +106,7 @@ def _angle_at(way: DriveWay, name: str, coupler: str, output: str) -> Callable[[
 
             def to_normal(motion: BodyMotion, normal: Series = normal) -> Series:
                 angles = _between(motion.place(coupler, foot) - motion.place(coupler, top), normal)
-                return np.minimum(angles, math.pi - angles)
+                return np.asarray(np.minimum(angles, math.pi - angles))
 
             return to_normal
     return None
@@ -115,7 +115,7 @@ def _angle_at(way: DriveWay, name: str, coupler: str, output: str) -> Callable[[
 def _between(one: Series, other: Series) -> Series:
     """Angles between lines (n, 2) [rad], 0 to pi."""
     (x, y), (u, v) = one.T, other.T
-    return np.abs(np.arctan2(x * v - y * u, x * u + y * v))
+    return np.asarray(np.abs(np.arctan2(x * v - y * u, x * u + y * v)))
 
 
 def _extreme(

@@ -88,7 +88,7 @@ def stand(data: MachineData) -> StandReport:
             assumed=known is not None and known[2],
         )
     masses = [cylinder_masses(data, one.linkage) for one in postures]
-    bases = [] if strength.base is None else [strength.base] * len(postures)
+    base = strength.base
     rated = strength.rated_force
     return StandReport(
         name=data.name,
@@ -102,8 +102,9 @@ def stand(data: MachineData) -> StandReport:
         unknown_pins=[name for name, one in pins.items() if one is None],
         buckling=_buckling(postures, cylinders),
         unbuckled={name: "its stages are not known" for name, one in cylinders.items() if not one.stages},
-        tipping=[tipping_of(one.linkage, *rest) for one, *rest in zip(postures, bases, masses, strict=False)]
-        or None,
+        tipping=None
+        if base is None
+        else [tipping_of(one.linkage, base, besides) for one, besides in zip(postures, masses, strict=True)],
         assumed=list(_assumed(data, strength, pins)),
         sources=list(_sources(data)),
     )

@@ -11,6 +11,7 @@ from support_exudyn.machines.strength.assessment import FACTORS, FRICTION
 from support_exudyn.machines.strength.results import StandReport, SupportForce
 from support_exudyn.machines.strength.roof_forces import RoofForce
 
+Row = tuple[str, ...]
 WIDTH = 100  # letters of a line
 WEAK = 0.8  # of the rated force: what is less is said in words, assumed
 ROWS = 5  # postures in a table
@@ -41,7 +42,7 @@ def page(report: StandReport) -> Iterator[str]:
 def _cylinders(report: StandReport) -> Iterator[str]:
     yield "1 legs and rams [plain: pressure times area]"
     head = ("", "number", "bore mm", "set MPa", "yield MPa", "set kN", "yield kN", "x 1.2 kN", "pull kN")
-    rows = []
+    rows: list[Row] = []
     for name, one in report.cylinders.items():
         setting = math.nan if one.setting_pressure is None else one.setting_pressure
         pressures = [_number(1e-6 * pressure, ".1f") for pressure in (setting, one.yield_pressure)]
@@ -56,7 +57,7 @@ def _support(report: StandReport) -> Iterator[str]:
     yield f"2 support force, legs alike at setting or yield{free} [plain: virtual work, less weight]"
     last = ("ram pulls kN", "ram pushes kN") if rams else ()
     rubs = tuple(f"mu {mu:+g} kN" for mu in report.forces[0].rubbed)
-    rows = [("roof mm", "set kN", "yield kN", "place mm", "place %", *rubs, *last)]
+    rows: list[Row] = [("roof mm", "set kN", "yield kN", "place mm", "place %", *rubs, *last)]
     for one in _some(report.forces):
         (rear, front, height), roof = one.contact, one.yielding
         along = math.nan if roof is None else roof.x - rear
@@ -89,7 +90,7 @@ def _support(report: StandReport) -> Iterator[str]:
 def _over(report: StandReport) -> Iterator[str]:
     yield "3 resistance over the canopy, kN: the largest force that opens no valve and lifts no leg [plain]"
     shares = (0.0, 0.25, 0.5, 0.75, 1.0)
-    rows = [("roof mm", *("rear end", "1/4", "middle", "3/4", "front end", "largest", "at mm"))]
+    rows: list[Row] = [("roof mm", *("rear end", "1/4", "middle", "3/4", "front end", "largest", "at mm"))]
     for one in _some(report.forces, 3):
         places = [one.over[round(share * (len(one.over) - 1))] for share in shares]
         forces = [_force(roof) for roof in (*places, one.largest)]
@@ -99,7 +100,9 @@ def _over(report: StandReport) -> Iterator[str]:
 
 def _pins(report: StandReport) -> Iterator[str]:
     yield "4 pins at yield and 1.2 x yield, largest over the height, kN [rule EN 1804-1, 4.3.2: no part fails]"
-    rows = [("", "alike", "x 1.2", "any", "x 1.2", "rubs", "x 1.2", "bearing", "shear", "bending", "rubs")]
+    rows: list[Row] = [
+        ("", "alike", "x 1.2", "any", "x 1.2", "rubs", "x 1.2", "bearing", "shear", "bending", "rubs")
+    ]
     alike: dict[tuple[float, float], list[str]] = {}  # pins by the yield stresses of their safeties
     judged = {name: one.stresses for name, one in report.pins.items() if one.stresses is not None}
     for name, one in report.pins.items():
@@ -132,7 +135,7 @@ def _pins(report: StandReport) -> Iterator[str]:
 
 def _buckled(report: StandReport) -> Iterator[str]:
     yield "5 buckling of one cylinder at its longest, ends pinned [plain: Euler of its stages; Johnson]"
-    rows = [("", "length mm", "yield kN", "Euler kN", "Johnson kN", "safety", "at 1.2 x yield")]
+    rows: list[Row] = [("", "length mm", "yield kN", "Euler kN", "Johnson kN", "safety", "at 1.2 x yield")]
     weak = []
     for name, one in report.buckling.items():
         safety = one.least / one.force

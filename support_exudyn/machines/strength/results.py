@@ -148,4 +148,5 @@ def _plain(item: Any) -> Any:
 
 def _fields(item: Any) -> Sequence[str]:
     """Names of the fields of a data class or of a tuple with names; none of what is no result."""
-    return [one.name for one in fields(item)] if is_dataclass(item) else getattr(item, "_fields", ())
+    names: Sequence[str] = getattr(item, "_fields", ())
+    return [one.name for one in fields(item)] if is_dataclass(item) else names

@@ -87,7 +87,7 @@ SHORT = {
 WEAK = {name: replace(one, yield_pressure=1e3, setting_pressure=None) for name, one in OWN.cylinders.items()}
 LEG = StrengthData(cylinders={"leg": CylinderStrength(bore=0.2, yield_pressure=30e6)})
 SPRING = SpringDamper(body="canopy", point=(1.0, 0.0), other_point=(1.0, 1.0), stiffness=1.0)
-REFUSED = {
+REFUSED: dict[str, Any] = {
     r"no actuators that could carry a roof": shipped("watt_six_bar"),
     r"strength: missing; .* for each of leg": shipped("velenje_shield"),
     r"strength\.cylinders\.leg: there is none": {"cylinders": {**OWN.cylinders, **LEG.cylinders}},
