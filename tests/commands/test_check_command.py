@@ -35,14 +35,11 @@ def test_shipped_machines_are_drawn(name: str, tmp_path: Path, capsys: pytest.Ca
     assert edge.min() > 200  # nothing is cut off
 
 
-def test_a_file_of_ones_own_gets_its_figure_beside_it(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    path = written(tmp_path)
-    assert main(["check", str(path), "--json", "--stroke-mm", "300"]) == 0
+def test_a_file_of_ones_own_gets_its_figure(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["check", str(written(tmp_path)), "--json", "--stroke-mm", "300"]) == 0
     told = json.loads(capsys.readouterr().out)
     assert (told["stroke_m"], told["warnings"], len(told["stations"])) == (0.3, [], 11)
-    assert told["figures"] == [str(tmp_path / "ours_check.png"), str(tmp_path / "ours_check.pdf")]
+    assert told["figures"] == [str(tmp_path / f"ours_check.{kind}") for kind in ("png", "pdf")]
     assert all(Path(figure).exists() for figure in told["figures"])
 
 
