@@ -52,7 +52,7 @@ class ComparedColumn(NamedTuple):
 
     @classmethod
     def of_number(cls, number: Estimate, unit: str | None) -> ComparedColumn:
-        """A number as a column of a single value."""
+        """A number."""
         return cls(unit, np.zeros(0), np.array([number.value]), np.array([number.error]))
 
     @classmethod

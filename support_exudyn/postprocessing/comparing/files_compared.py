@@ -71,7 +71,7 @@ class ComparedPair:
 
     @property
     def verdict(self) -> Verdict:
-        """The worst of those on the channels with a tolerance; if there is none, of those on all."""
+        """As of several files."""
         return FilesCompared(self.reference, (self,)).verdict
 
     @property
@@ -256,7 +256,6 @@ def _common(
             f'column is which: [files."{other.path.name}".columns] "{first}" = "{second}"'
         )
     units, left_out = {}, {name: f"{other.name} has no such channel" for name in asked if name not in its}
-    without_unit = []
     for name in asked:
         if name in left_out:
             continue
@@ -266,9 +265,8 @@ def _common(
             if name in {*named, *mapped}:
                 raise
             left_out[name] = str(error)
-            without_unit.append(str(error))
     if not units:
-        raise InputError("\n".join(without_unit[:SHOWN]))
+        raise InputError("\n".join([reason for name, reason in left_out.items() if name in its][:SHOWN]))
     return units, left_out
 
 
@@ -283,14 +281,13 @@ def _channel_unit(reference: ComparedFile, other: ComparedFile, channel: str) ->
 
     Raises InputError if a file names none, or if both are of two kinds.
     """
-    files = (reference, other)
-    units = [file.columns[channel].unit for file in files]
-    known = [unit for unit in units if unit is not None]
-    of_runs = [file.columns[channel].unit for file in files if file.run is not None]
-    for unit in of_runs[:1] or map(_si_unit, known):  # g may be an acceleration, not where kg are
-        if unit is not None and len(known) == len(files) and all(_of_a_kind(each, unit) for each in known):
-            return unit
-    lacking = files[units.index(None)] if None in units else other
+    own, others = units = [file.columns[channel].unit for file in (reference, other)]
+    if own is not None and others is not None:
+        of_runs = [file.columns[channel].unit for file in (reference, other) if file.run is not None]
+        for unit in of_runs[:1] or map(_si_unit, (own, others)):  # g may be an acceleration, not where kg are
+            if unit is not None and _of_a_kind(own, unit) and _of_a_kind(others, unit):
+                return unit
+    lacking = reference if own is None else other
     column = lacking.mapped.get(channel, channel)
     mine, its = ("no unit" if unit is None else unit or "pure numbers" for unit in units)
     raise InputError(
