@@ -143,7 +143,7 @@ class LinkageDrawing:
                 plate = Polygon(corners, closed=True, lw=0, fc=colour, alpha=alpha, zorder=layer - 1)
                 self.axes.add_patch(plate)
                 corners = np.vstack([corners, corners[:1]])
-            mark = {"marker": "x", "ms": 5} if len(corners) == 1 else {}  # joined to nothing
+            mark: dict[str, Any] = {"marker": "x", "ms": 5} if len(corners) == 1 else {}  # joined to nothing
             self.axes.plot(*corners.T, ls=dashes, lw=1.8 if strong else 0.9, **pale, **mark)
         for name in self.linkage.actuators:  # a thick cylinder and a thin rod
             foot, head = self._ends(name, position)

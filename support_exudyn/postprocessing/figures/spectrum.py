@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -16,6 +17,7 @@ from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
 
 WINDOW = "hann"
+TREND: Any = "linear"  # which is taken out of pieces; types of scipy lack it
 WIDTH = 1.5  # of the window in the frequency, in bins: what a pure tone is smeared over
 SEGMENTS = 4  # of equal length that a piece is cut into; overlapping by half, seven are averaged
 FEWEST = 16  # records that a spectrum is made of
@@ -77,7 +79,7 @@ def spectrum(time: Series, values: Series, segments: int = SEGMENTS) -> Spectrum
             f"a spectrum of {values.size} records in {segments} segments: allowed: at least "
             f"{FEWEST * segments} records"
         )
-    frequency, power = signal.welch(values, 1.0 / spacing, WINDOW, length, detrend="linear", scaling="spectrum")
+    frequency, power = signal.welch(values, 1.0 / spacing, WINDOW, length, detrend=TREND, scaling="spectrum")
     averaged = (values.size - length) // (length - length // 2) + 1
     return Spectrum(frequency, np.sqrt(2.0 * power), float(frequency[1]), spacing, averaged)
 
@@ -167,7 +169,7 @@ def _draw_over_time(axes: Axes, time: Series, force: Series) -> None:
     values, spacing = equally_spaced(time, force)
     length = max(FEWEST, min(256, values.size // 16))
     frequency, moments, power = signal.spectrogram(
-        values, fs=1.0 / spacing, window=WINDOW, nperseg=length, noverlap=length // 2, detrend="linear",
+        values, fs=1.0 / spacing, window=WINDOW, nperseg=length, noverlap=length // 2, detrend=TREND,
         scaling="spectrum",
     )  # fmt: skip
     amplitude = np.sqrt(2.0 * power)
