@@ -8,11 +8,13 @@ from pathlib import Path
 
 import numpy as np
 from PIL import Image
+from PIL.ImageColor import getrgb
 from PIL.PngImagePlugin import PngInfo
 
 from support_exudyn.files.whole_file import whole_file
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.postprocessing.export.whole_set import whole_set
+from support_exudyn.postprocessing.figures.style import CONTACT, FLIGHT
 from support_exudyn.postprocessing.render.frame import Painter, Times
 from support_exudyn.postprocessing.render.stage import Picture
 from support_exudyn.scene.contract import Progress, silent
@@ -26,6 +28,7 @@ MOST_FRAMES = 2000  # the GIF is made in memory
 NAME, FRAME = "frame_{:04d}.png", re.compile(r"frame_\d{4,}\.png")
 MAKER = "support_exudyn"  # stands in every frame, so that no picture of another program is removed
 COLOURS, SAMPLED = 256, 5  # of a GIF, and frames by which they are chosen
+ALWAYS = ("#ffffff", CONTACT, FLIGHT)  # colours that have a meaning
 WIDEST = 960  # pixels of a GIF; larger frames are shrunk
 
 
@@ -149,7 +152,9 @@ def _write_gif(path: Path, frames: Sequence[Path], rate: float) -> None:
 
     samples = [frames[n] for n in np.unique(np.linspace(0, len(frames) - 1, SAMPLED).astype(int))]
     sample = Image.fromarray(np.concatenate([np.asarray(shrunk(one)) for one in samples]))
-    palette = sample.quantize(COLOURS, method=Image.Quantize.MEDIANCUT)
+    most = sample.quantize(COLOURS - len(ALWAYS), method=Image.Quantize.MEDIANCUT).getpalette() or []
+    palette = Image.new("P", (1, 1))
+    palette.putpalette([part for colour in ALWAYS for part in getrgb(colour)] + most)
     first, *others = (shrunk(one).quantize(palette=palette, dither=Image.Dither.NONE) for one in frames)
     # hundredths of a second that add up to the movie's length
     ends = np.round(100.0 * np.arange(len(frames) + 1) / rate).astype(int)
