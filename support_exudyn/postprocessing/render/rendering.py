@@ -29,6 +29,7 @@ NAME, FRAME = "frame_{:04d}.png", re.compile(r"frame_\d{4,}\.png")
 MAKER = "support_exudyn"  # stands in every frame, so that no picture of another program is removed
 COLOURS, SAMPLED = 256, 5  # of a GIF, and frames by which they are chosen
 ALWAYS = ("#ffffff", CONTACT, FLIGHT)  # colours that have a meaning
+NEARLY_WHITE = 248  # of 255: what is as light is white
 WIDEST = 960  # pixels of a GIF; larger frames are shrunk
 
 
@@ -154,7 +155,8 @@ def _write_gif(path: Path, frames: Sequence[Path], rate: float) -> None:
     sample = Image.fromarray(np.concatenate([np.asarray(shrunk(one)) for one in samples]))
     most = sample.quantize(COLOURS - len(ALWAYS), method=Image.Quantize.MEDIANCUT).getpalette() or []
     palette = Image.new("P", (1, 1))
-    palette.putpalette([part for colour in ALWAYS for part in getrgb(colour)] + most)
+    parts = [part for colour in ALWAYS for part in getrgb(colour)] + most
+    palette.putpalette([255 if part > NEARLY_WHITE else part for part in parts])  # which Pillow rounds
     first, *others = (shrunk(one).quantize(palette=palette, dither=Image.Dither.NONE) for one in frames)
     # hundredths of a second that add up to the movie's length
     ends = np.round(100.0 * np.arange(len(frames) + 1) / rate).astype(int)
