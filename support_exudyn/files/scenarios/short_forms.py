@@ -84,10 +84,10 @@ def _from_file(name: str, faults: Faults, folder: Path) -> MachineData | None:
     except InputError as error:
         of_file = name.lower().endswith(".toml")  # which it then names itself
         faults.lines += [line if of_file else f"{faults.where}: {line}" for line in str(error).splitlines()]
-    except OSError as error:
-        faults.wrong(
-            ("machine",), name, f"a file that can be read, from {folder.resolve()} on ({error.strerror})"
-        )
+    except (OSError, ValueError) as error:  # ValueError: of names that no file can have
+        reason = getattr(error, "strerror", None) or error
+        allowed = f"a file that can be read, from {folder.resolve()} on ({reason})"
+        faults.wrong(("machine",), name, allowed)
     return None
 
 
