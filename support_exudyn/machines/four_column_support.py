@@ -29,7 +29,7 @@ __all__ = ["BODIES", "PIVOTS", "TAIL", "HydraulicSupport", "Posture"]
 class HydraulicSupport(FourBarShield):
     """Pivots, parts and start height of a four-column shield support.
 
-    Arguments: those of `ShieldLayout`, and in the same reference posture
+    Arguments: those of `FourBarShield`, and in the same reference posture
         front_foot, front_head: F and E, ends of the front column [m].
         rear_foot, rear_head: H and G, ends of the rear column [m].
     """

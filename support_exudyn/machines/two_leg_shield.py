@@ -35,7 +35,7 @@ STRIDE = 0.02  # [m] from one level posture to the next
 class TwoLegShield(FourBarShield):
     """Pivots, parts and start height of a two-leg shield support.
 
-    Columns: `leg` and `ram`. Arguments: those of `ShieldLayout`, and in the same reference posture
+    Columns: `leg` and `ram`. Arguments: those of `FourBarShield`, and in the same reference posture
         leg_foot, leg_head: F and L, ends of the legs on base and canopy [m].
         ram_foot, ram_head: P and Q, ends of the stabilising ram on shield beam and canopy [m].
     """
