@@ -156,18 +156,23 @@ class Contact(Value, ABC):
             self.normal.check(result.depth)
         return result
 
-    def forces(self, rows: Array) -> tuple[ContactForce, Array]:
-        """Forces and stored energy [J] at many instants, (n,) each.
+    def forces(self, rows: Array) -> ContactForce:
+        """Forces at many instants, (n,) each.
 
         Arguments:
             rows: arguments of `force_kernel` without its constants, shape (n, 11).
         """
-        energy = self.normal.energy_formula
-        over = rows_kernel_of(self.force_kernel, energy.function, len(energy.parameters))
-        out = np.empty((len(rows), len(ContactForce._fields) + 1))
-        over(np.ascontiguousarray(rows), np.array(self.constants), np.array(energy.parameters), out)
+        out = np.empty((len(rows), len(ContactForce._fields)))
+        rows_kernel_of(self.force_kernel)(np.ascontiguousarray(rows), np.array(self.constants), out)
         columns: list[Any] = [*out.T]
-        return ContactForce(*columns[:-1]), columns[-1]
+        return ContactForce(*columns)
+
+    def energies(self, depths: Array) -> Array:
+        """Stored energy (n,) [J] at depths (n,) [m]."""
+        energy, out = self.normal.energy_formula, np.empty(len(depths))
+        over = energies_kernel_of(energy.function, len(energy.parameters))
+        over(np.ascontiguousarray(depths), np.array(energy.parameters), out)
+        return out
 
 
 @value
@@ -332,20 +337,29 @@ def force_kernel_of(
 
 
 @cache
-def rows_kernel_of(force: Kernel, energy: Kernel, of_energy: int) -> Kernel:
-    """A force kernel and the stored energy [J] over many instants, as machine code if numba can compile it."""
+def rows_kernel_of(force: Kernel) -> Kernel:
+    """A force kernel over many instants, as machine code if numba can compile it."""
 
-    def over(rows: Any, constants: Any, parameters: Any, out: Any) -> None:
+    def over(rows: Any, constants: Any, out: Any) -> None:
         for n in range(rows.shape[0]):
             motion, memory = numbers(rows[n], 0, 6), numbers(rows[n], 7, 4)
             result = force(*motion, rows[n, 6] > 0.5, *memory, constants)
             depth, rate, slip, normal, friction, fx, fy, arm, clamped, deflection = result
             out[n, 0], out[n, 1], out[n, 2], out[n, 3], out[n, 4] = depth, rate, slip, normal, friction
             out[n, 5], out[n, 6], out[n, 7], out[n, 8], out[n, 9] = fx, fy, arm, clamped, deflection
-            out[n, 10] = energy(depth, *numbers(parameters, 0, of_energy)) if depth > 0.0 else 0.0
 
-    arrays = np.zeros((1, 1)), np.zeros(1), np.zeros(1), np.zeros((1, 1))
-    return compiled_or_plain(over, arrays)
+    return compiled_or_plain(over, (np.zeros((1, 1)), np.zeros(1), np.zeros((1, 1))))
+
+
+@cache
+def energies_kernel_of(energy: Kernel, count: int) -> Kernel:
+    """A stored energy over many depths, as machine code if numba can compile it; count: of its parameters."""
+
+    def over(depths: Any, parameters: Any, out: Any) -> None:
+        for n in range(depths.size):
+            out[n] = energy(depths[n], *numbers(parameters, 0, count)) if depths[n] > 0.0 else 0.0
+
+    return compiled_or_plain(over, (np.zeros(1), np.zeros(1), np.zeros(1)))
 
 
 def _check_straight(law: NormalLaw) -> None:

@@ -39,7 +39,6 @@ seed = 1
 
 [record]
 numbers = ["pin.rear_base.largest_force", "pin.rear_base.force.mean"]
-keep_runs = false
 """
 
 if __name__ == "__main__":  # runs are processes of their own

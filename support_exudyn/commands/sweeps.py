@@ -11,6 +11,7 @@ from support_exudyn.commands import command_line as cli
 from support_exudyn.postprocessing import sweep_runs, sweep_sliders, sweep_summary
 from support_exudyn.postprocessing.figures.selection import matching
 from support_exudyn.postprocessing.sweep_runs import SweepRuns
+from support_exudyn.sweeps import open_run as compute_run
 from support_exudyn.sweeps import read_sweep, read_table
 from support_exudyn.sweeps import sweep as run_sweep
 from support_exudyn.sweeps.run import known
@@ -34,11 +35,12 @@ def sweep(
     retry_failed: bool = False,
     prune: bool = False,
     dry_run: bool = False,
+    open_run: str = "",
     json: cli.Json = False,
 ) -> int:
     """Run what is missing, and print how many runs there are of each kind, and where the table is.
 
-    The store is a folder with a file for every run, and table.parquet and table.csv with a row for every run.
+    The store is a folder with table.parquet and table.csv, which have a row for every run.
     The same command resumes an interrupted sweep; after a change of FILE only those runs are made that it
     lacks.
 
@@ -51,11 +53,15 @@ def sweep(
         retry_failed: Run again what has failed before.
         prune: Remove runs from the store that FILE no longer asks for.
         dry_run: Only print how many runs there are to do.
+        open_run: Only compute this run again, by its name in the table, and write STORE/NAME.h5.
     """
     if workers and scheduler:
         raise InputError(f"--workers {workers}: allowed: without --scheduler")
     plan = read_sweep(file)
     store = out or plan.store or Path()
+    if open_run:
+        cli.say(compute_run(plan, open_run).save(store / f"{open_run}.h5"))
+        return 0
     if dry_run:
         outcome = known(plan, store, retry_failed)
     else:

@@ -12,7 +12,6 @@ import numpy as np
 from support_exudyn.machines.check.freedoms import in_line
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.closing import Conditions, repeated_count
-from support_exudyn.mechanics.constraints import matrix
 from support_exudyn.mechanics.kinetics import Matrix
 from support_exudyn.mechanics.observed_run import Trajectory
 from support_exudyn.mechanics.trajectory import Series
@@ -42,9 +41,7 @@ def values_of(conditions: Conditions, position: Series) -> Series:
 
 def _rows(conditions: Conditions, position: Series) -> Series:
     motion = BodyMotion(conditions.linkage, position, position)
-    return np.asarray(
-        conditions.counts[:, None] * matrix(motion, conditions.kinetics.constraints) / conditions.arms
-    )
+    return np.asarray(conditions.counts[:, None] * conditions.kinetics.arrays.matrix(motion) / conditions.arms)
 
 
 def _values(rows: Series) -> Series:

@@ -189,19 +189,24 @@ class BodyMotion(Motion):
         return found
 
     @cached_property
-    def _turns(self) -> tuple[Series, Series]:
-        """Cosine and sine of the turns of all bodies, and of the ground as the last, (n, b + 1) each."""
-        turns = np.zeros((self.count, len(self.linkage.bodies) + 1))
-        turns[:, :-1] = self.position[:, 2::3]
-        return np.cos(turns), np.sin(turns)
+    def _turns(self) -> dict[int, Series]:
+        """Cosine and sine (2, n) of the turns of bodies by their numbers, as far as they are needed."""
+        still = np.zeros((2, self.count))
+        still[0] = 1.0
+        return {len(self.linkage.bodies): still}
 
     def turned(self, bodies: npt.NDArray[np.int_], vectors: Series) -> Series:
         """See `Motion`."""
-        (cos, sin), x, y = self._turns, vectors[..., 0], vectors[..., 1]
-        c, s = cos[:, bodies], sin[:, bodies]
-        found = np.empty((2, *c.shape))  # working by columns is ten times faster
-        found[0], found[1] = c * x - s * y, s * x + c * y
-        return np.moveaxis(found, 0, -1)
+        numbers = bodies.ravel().tolist()
+        for n in set(numbers) - self._turns.keys():
+            turn = self.position[:, 3 * n + 2]
+            self._turns[n] = np.array([np.cos(turn), np.sin(turn)])
+        found = np.empty((2, *bodies.shape, self.count))  # working by columns is ten times faster
+        columns = found.reshape(2, len(numbers), self.count)
+        for k, (n, (x, y)) in enumerate(zip(numbers, vectors.reshape(-1, 2).tolist(), strict=True)):
+            c, s = self._turns[n]
+            columns[0, k], columns[1, k] = c * x - s * y, s * x + c * y
+        return found.transpose(found.ndim - 1, *range(1, found.ndim - 1), 0)
 
     def swept(self, spin: Series, arm: Series) -> Series:
         """See `Motion`."""

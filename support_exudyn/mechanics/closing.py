@@ -154,6 +154,11 @@ class Conditions:
             offsets={name: one for name, one in self.offsets.items() if name in kept["pins"]},
         )
 
+    @cached_property
+    def repeated(self) -> tuple[int, bool]:
+        """See `repeated_count`."""
+        return _repeated(self)
+
     @property
     def names(self) -> list[tuple[str, str]]:
         """All driven parts and joints, each by its field of the linkage and its name."""
@@ -305,6 +310,10 @@ def repeated_count(conditions: Conditions) -> tuple[int, bool]:
 
     The start posture is then a dead centre or a change point.
     """
+    return conditions.repeated
+
+
+def _repeated(conditions: Conditions) -> tuple[int, bool]:
     left, values, right = np.linalg.svd(conditions.rows(conditions.still))
     rank = _rank(values)
     repeats = len(left) - rank

@@ -63,9 +63,9 @@ def series(contact: Contact, moving: RelativeMotion, memories: Series | Sequence
     # the memory was taken at the same instant: no time has passed since
     now = memory["impact_velocity"], memory["deflection"], memory["slip"], np.zeros(closed.size)
     rows = np.column_stack([*moving, closed, *now])
-    result, stored = contact.forces(rows)
-    force: Any = result  # arrays in place of numbers
+    force: Any = contact.forces(rows)  # arrays in place of numbers
     return ContactSeries(
+        contact=contact,
         force_x=force.force_x,
         force_y=force.force_y,
         normal_force=force.normal_force,
@@ -75,7 +75,6 @@ def series(contact: Contact, moving: RelativeMotion, memories: Series | Sequence
         impact_velocity=np.where(closed, memory["impact_velocity"], 0.0),
         eccentricity_x=moving.x,
         eccentricity_y=moving.y,
-        stored=stored,
         deflection=force.deflection if contact.friction.has_state else None,
     )
 

@@ -74,7 +74,8 @@ class Kinetics:
         return BodyMotion(self.linkage, position[None], np.zeros((1, position.size)))
 
     @cached_property
-    def _rows(self) -> ConstraintRows:
+    def arrays(self) -> ConstraintRows:
+        """The constraints as arrays, for many instants at once."""
         return ConstraintRows(self.linkage, self.constraints)
 
     @cached_property
@@ -110,11 +111,11 @@ class Kinetics:
 
     def rows(self, position: Matrix) -> Matrix:
         """Jacobian C, (m, n), see `constraints_of`."""
-        return np.asarray(self._rows.matrix(self.motion(position))[0])
+        return np.asarray(self.arrays.matrix(self.motion(position))[0])
 
     def values(self, position: Matrix) -> Matrix:
         """What the constraints hold, (m,): lengths [m] and turns [rad]."""
-        return np.asarray(self._rows.values(self.motion(position))[0])
+        return np.asarray(self.arrays.values(self.motion(position))[0])
 
     def owners(self) -> list[tuple[str, str]]:
         """Of each of the rows, the field of the linkage and the name of the part that it is of."""
@@ -164,7 +165,7 @@ class Kinetics:
         return self._instant(position).answers(rate)
 
     def _instant(self, position: Matrix) -> Instant:
-        return Instant(self.motion(position), self.constraints, self.size, self._rows)
+        return Instant(self.motion(position), self.constraints, self.size, self.arrays)
 
 
 @dataclass(frozen=True)

@@ -2,10 +2,13 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
+
+from user_forces.contact import Contact
 
 Series = npt.NDArray[np.float64]
 
@@ -15,10 +18,11 @@ class ContactSeries:
     """A clearance pin at the records, shape (n,) each, SI, ground's axes.
 
     force_x, force_y: of the bore on the journal [N]. eccentricity_x, eccentricity_y: journal's centre minus
-    bore's [m]. impact_velocity: used by the laws, 0 during separation. stored: elastic energy [J]. deflection:
-    state of the friction law [m], None if it has none. The others as in `user_forces.contact.ContactForce`.
+    bore's [m]. impact_velocity: used by the laws, 0 during separation. deflection: state of the friction law
+    [m], None if it has none. The others as in `user_forces.contact.ContactForce`.
     """
 
+    contact: Contact
     force_x: Series
     force_y: Series
     normal_force: Series
@@ -28,8 +32,12 @@ class ContactSeries:
     impact_velocity: Series
     eccentricity_x: Series
     eccentricity_y: Series
-    stored: Series
     deflection: Series | None = None
+
+    @cached_property
+    def stored(self) -> Series:
+        """Elastic energy (n,) [J]."""
+        return self.contact.energies(self.depth)
 
 
 @dataclass(frozen=True)

@@ -168,5 +168,7 @@ FINISHED, STUCK, TOO_MANY_STEPS, TOO_MANY_IMPACTS, DEAD_CENTRE, PAUSED, TOO_MANY
 LOSSES = 3  # last components of the state: damping, friction, and the work of what drives
 DAMPING_LOSS, FRICTION_LOSS, WORK = -3, -2, -1
 
-# what a record keeps of a contact besides the state: whether it is closed, and its impact velocity
-MEMORY = 2
+# what a record keeps of a contact besides the state, see `ContactSeries`
+CONTACT_PARTS = ("force_x", "force_y", "normal_force", "friction_force", "depth", "slip")
+CONTACT_PARTS += ("impact_velocity", "eccentricity_x", "eccentricity_y")
+CONTACT_NUMBERS = len(CONTACT_PARTS)

@@ -8,8 +8,8 @@ from itertools import islice
 from typing import Any
 
 from support_exudyn.sweeps.key import program
-from support_exudyn.sweeps.store import Pieces, Store, StoredRun
-from support_exudyn.sweeps.work import Task, computed, image_of
+from support_exudyn.sweeps.store import StoredRun
+from support_exudyn.sweeps.work import Task, run_task
 from user_forces.values.value import InputError
 
 AHEAD = 2  # runs for each thread of the cluster that wait there, so that none waits for us
@@ -18,8 +18,8 @@ REACHED = 10.0  # [s] within which a scheduler must answer
 ONE = threading.Lock()  # the engine runs once in a process, however many threads a worker has
 
 
-def on_cluster(tasks: Iterable[Task], store: Store, address: str) -> Generator[StoredRun, None, None]:
-    """Rows as they come. Runs come back as the bytes of their files, and are put into the store here.
+def on_cluster(tasks: Iterable[Task], address: str) -> Generator[StoredRun, None, None]:
+    """Rows as they come.
 
     A run whose worker is lost is done again by another; how often is the scheduler's setting
     (`distributed.scheduler.allowed-failures`). If that is used up its row is "killed".
@@ -57,7 +57,7 @@ def on_cluster(tasks: Iterable[Task], store: Store, address: str) -> Generator[S
                 future = next(done)
                 task = under_way.pop(future)
                 try:
-                    row, pieces = future.result()
+                    row: StoredRun = future.result()
                 except KilledWorker as error:
                     yield StoredRun(
                         task.key, "killed", f"lost with its worker, again and again: {_said(error)}"
@@ -65,7 +65,7 @@ def on_cluster(tasks: Iterable[Task], store: Store, address: str) -> Generator[S
                 except CancelledError:
                     raise lost from None
                 else:
-                    yield store.put(row, pieces)
+                    yield row
                 future.release()
                 further(done)
         finally:
@@ -109,13 +109,12 @@ def _said(error: Exception) -> str:
     return " ".join(str(error).split())
 
 
-def _remote(task: Task, ours: dict[str, str]) -> tuple[StoredRun, Pieces]:
-    """On a worker: a run's row, and its file's bytes in pieces if it is to be kept."""
+def _remote(task: Task, ours: dict[str, str]) -> StoredRun:
+    """On a worker: a run's row."""
     theirs = program()
     differing = sorted(name for name in {*ours, *theirs} if ours.get(name) != theirs.get(name))
     if differing:
         said = "; ".join(f"{n}: {theirs.get(n, 'none')} there, {ours.get(n, 'none')} here" for n in differing)
         raise InputError(f"a worker of the cluster runs another program ({said}); allowed: the same everywhere")
     with ONE:
-        row, result = computed(task)
-    return row, image_of(task, result)
+        return run_task(task)

@@ -44,7 +44,7 @@ from user_forces.values.value import InputError, short
 
 METHODS = ("grid", "list", "latin_hypercube")
 KEYS = {"scenario", "method", "vary", "record", "samples", "seed"}
-RECORD_KEYS = {"numbers", "keep_runs", "after_s", "until_s"}
+RECORD_KEYS = {"numbers", "after_s", "until_s"}
 RANGE_KEYS = {"from", "to", "steps", "scale"}
 RANGE, NORMAL = (
     "{from = 0.0, to = 0.3, steps = 4}",
@@ -149,15 +149,12 @@ def _record(table: Table) -> Record:
     numbers = table.get("numbers", [])
     if not (isinstance(numbers, list) and all(isinstance(name, str) and name for name in numbers)):
         raise InputError(f"record.numbers = {short(numbers)}: allowed: a list of names")
-    keep = table.get("keep_runs", True)
-    if not isinstance(keep, bool):
-        raise InputError(f"record.keep_runs = {short(keep)}: allowed: true, false")
     times = {}
     for key, usual in (("after_s", 0), ("until_s", math.inf)):
         times[key] = table.get(key, usual)
         if key in table and not (_is_number(times[key]) and times[key] >= 0):
             raise InputError(f"record.{key} = {_said(times[key])}: allowed: a time in s, >= 0")
-    return Record(tuple(numbers), float(times["after_s"]), float(times["until_s"]), keep)
+    return Record(tuple(numbers), float(times["after_s"]), float(times["until_s"]))
 
 
 def _flat(table: Table, before: str = "") -> list[tuple[str, Any]]:

@@ -133,17 +133,16 @@ class Record:
 
     numbers: names such as "pin.rear_base.force.mean", a channel and a statistic of it; patterns as in a shell;
     or those of `Result.numbers`. None: all of the latter. after, until: times between which statistics are
-    taken [s]. keep_runs: whether every run is kept as a file, too.
+    taken [s].
     """
 
     numbers: tuple[str, ...] = ()
     after: float = 0.0
     until: float = math.inf
-    keep_runs: bool = True
 
     @property
     def digest(self) -> str:
-        """Tells apart what is noted, not whether runs are kept."""
+        """Identifies what is noted."""
         return json.dumps([self.numbers, self.after, self.until])
 
     def check(self, scenario: Scenario) -> None:

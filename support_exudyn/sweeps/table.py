@@ -23,8 +23,8 @@ WHOLE = 2**63  # whole numbers of a column are smaller
 OWN = b"support_exudyn"  # of the schema's metadata
 UNIT_WORDS = {"^": "", "/": "_per_", " ": "_"}
 MEANINGS = {
-    "run": "readable name of the run, in the store's folder named",
-    "key": "name of the run's files in the store",
+    "run": "readable name of the run",
+    "key": "digest of the run's inputs and of the program",
     "status": "done, failed (it cannot be run, or stopped), killed (its process ended)",
     "reason": "why there are no numbers, or why they are less accurate than asked for",
     "wall_time_s": "time that the run took",

@@ -1,29 +1,29 @@
-"""What is done for a run of a sweep, and the runs in processes on this machine."""
+"""What is done for a run of a sweep, in threads and in processes; and a few runs whose results are wanted."""
 
+import pickle
 import threading
 import time
 from collections.abc import Callable, Generator, Iterable, Iterator, Mapping
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass
-from itertools import islice
+from itertools import chain, islice
 from pathlib import Path
 
-from support_exudyn.files.whole_file import workshop
 from support_exudyn.formulations.registry import formulation
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scenario.timescales import rounded
 from support_exudyn.scene.contract import Failure, Progress, SimulationError, error_text, silent
 from support_exudyn.simulation.automatic_settings import covered, settings_for
-from support_exudyn.simulation.result import Result, with_digest
+from support_exudyn.simulation.result import Result
 from support_exudyn.simulation.simulate import simulate
 from support_exudyn.sweeps.key import own_sources
 from support_exudyn.sweeps.measures import channels_of, numbers
 from support_exudyn.sweeps.plan import Record
-from support_exudyn.sweeps.store import Pieces, Store, StoredRun
+from support_exudyn.sweeps.store import StoredRun
 from support_exudyn.sweeps.workers import ProcessEndedError, Workers, keep_memory, report, worker_pool
 from user_forces.values.value import InputError, cleaned
 
-MOST_RECORDS = 1000  # of a run that is not kept
+MOST_RECORDS = 1000  # of a compiled run
 THREADS_AHEAD = 2  # runs for each thread, one of them waiting
 
 
@@ -60,21 +60,25 @@ def is_compiled(scenario: Scenario) -> bool:
     return formulation(scenario.formulation).name == "compiled"
 
 
-def computed(task: Task, progress: Progress = silent) -> tuple[StoredRun, Result | None]:
-    """Run it. The Result is None if it fails, whatever the reason is, which the row tells.
+def run_task(task: Task, progress: Progress = silent) -> StoredRun:
+    """The row of a run: its numbers, or why there are none, whatever the reason is.
 
     A law of one's own may do anything; KeyboardInterrupt alone ends all runs.
     """
-    began = time.perf_counter()
+    began, noted = time.perf_counter(), task.record.digest
     try:
-        scenario = task.scenario if task.record.keep_runs else reduced(task.scenario, task.record)
+        scenario = reduced(task.scenario, task.record)
         result = simulate(scenario, errors=task.errors, progress=progress)
-        return row_of(task, result), result
+        reason = ""
+        if result.goal is not None and not result.met:
+            reason = f"accuracy {result.goal:g}: NOT met, {result.worst_error:.1g} is estimated; "
+            reason += "a larger one may do"
+        found = numbers(result, task.record)
+        return StoredRun(task.key, "done", reason, result.wall_time, found, noted)
     except KeyboardInterrupt:
         raise
     except BaseException as error:  # also SystemExit
-        took = time.perf_counter() - began
-        return StoredRun(task.key, "failed", reason_of(error), took, noted=task.record.digest), None
+        return StoredRun(task.key, "failed", reason_of(error), time.perf_counter() - began, noted=noted)
 
 
 def reason_of(error: BaseException) -> str:
@@ -83,56 +87,39 @@ def reason_of(error: BaseException) -> str:
     return cleaned(" ".join(str(error).split()) if expected else error_text(error))
 
 
-def row_of(task: Task, result: Result) -> StoredRun:
-    """The row of a run that was finished."""
-    found = numbers(result, task.record)
-    met = result.goal is None or result.met
-    reason = (
-        ""
-        if met
-        else f"accuracy {result.goal:g}: NOT met, {result.worst_error:.1g} is estimated; a larger one may do"
-    )
-    return StoredRun(task.key, "done", reason, result.wall_time, found, task.record.digest)
-
-
-def image_of(task: Task, result: Result | None) -> Pieces:
-    """The bytes of the file of a run that is to be kept, in pieces; none if it is not, or has failed."""
-    return with_digest(result.image()) if result is not None and task.record.keep_runs else ()
-
-
-def run_into(store: Store, task: Task, progress: Progress = silent, within: Path | None = None) -> StoredRun:
-    """Run it, and put all of it into the store; within: see `whole_file`."""
-    row, result = computed(task, progress)
-    return store.put(row, image_of(task, result), within)
-
-
 # --- in processes ---
 
 
-def in_processes(tasks: Iterable[Task], store: Store, workers: int) -> Generator[StoredRun, None, None]:
-    """Rows as they come; each process puts its runs into the store by itself.
+def in_processes(tasks: Iterable[Task], workers: int) -> Generator[StoredRun, None, None]:
+    """Rows as they come. Of a run that cannot be sent to a process the row is "failed".
 
     The row of a run whose process ends, also when it is tried by itself, is "killed".
 
     workers: number of processes, >= 1.
     """
     keys: dict[int, str] = {}  # of runs under way
+    unsent: list[StoredRun] = []
 
-    def jobs() -> Iterator[tuple[Store, Task]]:
-        for number, task in enumerate(tasks):
-            keys[number] = task.key
-            yield store, task
+    def jobs() -> Iterator[tuple[bytes]]:
+        for task in tasks:
+            try:
+                job = (pickle.dumps(task),)
+            except Exception as error:  # of classes of one's own any
+                unsent.append(StoredRun(task.key, "failed", reason_of(error), noted=task.record.digest))
+                continue
+            keys[len(keys)] = task.key
+            yield job
 
     with worker_pool(workers) as pool:
-        for number, found in pool.stream(jobs(), _do):
-            key = keys.pop(number)
-            yield StoredRun(key, "killed", found.reason) if isinstance(found, ProcessEndedError) else found
+        for number, row in pool.stream(jobs(), _run_packed):
+            yield StoredRun(keys[number], "killed", row.reason) if isinstance(row, ProcessEndedError) else row
+    yield from unsent
 
 
-def _do(place: int, store: Store, task: Task) -> StoredRun:
+def _run_packed(place: int, packed: bytes) -> StoredRun:
     del place
-    with workshop(store.folder) as within:
-        return run_into(store, task, within=within)
+    task: Task = pickle.loads(packed)
+    return run_task(task)
 
 
 # --- in threads ---
@@ -143,9 +130,15 @@ def suits_threads(task: Task) -> bool:
     return is_compiled(task.scenario) and not own_sources(task.scenario.plain)
 
 
-def in_threads_first(tasks: Iterable[Task], store: Store, workers: int) -> Generator[StoredRun, None, None]:
-    """Rows as they come: first of all runs that suit threads, then of the others from processes."""
-    others: list[Task] = []
+def here(tasks: Iterable[Task], workers: int) -> Generator[StoredRun, None, None]:
+    """Rows as they come: of runs that suit threads, if the first does, then of all others from processes."""
+    tasks, others = iter(tasks), list[Task]()
+    if (first := next(tasks, None)) is None:
+        return
+    tasks = chain([first], tasks)
+    if not suits_threads(first):
+        yield from in_processes(tasks, workers)
+        return
 
     def suiting() -> Iterator[Task]:
         for task in tasks:
@@ -154,12 +147,12 @@ def in_threads_first(tasks: Iterable[Task], store: Store, workers: int) -> Gener
             else:
                 others.append(task)
 
-    yield from in_threads(suiting(), store, workers)
+    yield from in_threads(suiting(), workers)
     if others:
-        yield from in_processes(others, store, workers)
+        yield from in_processes(others, workers)
 
 
-def in_threads(tasks: Iterable[Task], store: Store, workers: int) -> Generator[StoredRun, None, None]:
+def in_threads(tasks: Iterable[Task], workers: int) -> Generator[StoredRun, None, None]:
     """Rows as they come, of runs by compiled code, which threads of this process integrate side by side.
 
     An interruption ends them in mid-work. workers: number of threads, >= 1.
@@ -174,9 +167,9 @@ def in_threads(tasks: Iterable[Task], store: Store, workers: int) -> Generator[S
 
     def do(task: Task) -> StoredRun:
         check(0.0)
-        return run_into(store, task, check, within)
+        return run_task(task, check)
 
-    with workshop(store.folder) as within, ThreadPoolExecutor(workers) as pool:
+    with ThreadPoolExecutor(workers) as pool:
         under_way: set[Future[StoredRun]] = set()
         try:
             while True:

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from support_exudyn.sweeps import read_table
+from support_exudyn.sweeps.work import run_task
 from tests.processes import ROOT, environment
 
 STAND = """
@@ -61,18 +63,23 @@ def start(path: Path, *options: str) -> subprocess.Popen[str]:
     )
 
 
-def run_by(monkeypatch: pytest.MonkeyPatch, in_processes: Any) -> None:
-    """Let sweeps make their runs by a generator in place of processes."""
-    monkeypatch.setattr("support_exudyn.sweeps.run.in_processes", in_processes)
+def run_by(monkeypatch: pytest.MonkeyPatch, here: Any = None) -> None:
+    """Let sweeps make their runs by a generator; by default in this process, one after the other."""
+    one_by_one = here or (lambda tasks, workers: map_closed(run_task, tasks))
+    monkeypatch.setattr("support_exudyn.sweeps.run.here", one_by_one)
 
 
-def rows(store: Path) -> dict[str, tuple[int, int]]:
-    """Of finished runs, by key: what changes if one is made again."""
-    found = {}
-    for path in (store / "rows").glob("[!.]*.json"):
-        status = path.stat()
-        found[path.stem] = (status.st_ino, status.st_mtime_ns)
-    return found
+def map_closed(function: Callable[[Any], Any], items: Iterable[Any]) -> Iterator[Any]:
+    """As `map`, which has no `close`."""
+    for item in items:
+        yield function(item)
+
+
+def rows(store: Path) -> dict[str, str]:
+    """Lines of finished runs by key; the time that one took changes if it is made again."""
+    file = store / "rows.txt"
+    lines = file.read_text(encoding="utf-8").splitlines() if file.exists() else []
+    return {line.partition(" ")[0]: line for line in lines if line.endswith("}")}
 
 
 def columns(store: Path) -> dict[str, list[Any]]:

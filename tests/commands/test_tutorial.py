@@ -17,7 +17,7 @@ from support_exudyn import Result
 from support_exudyn.__main__ import main
 from support_exudyn.files.machines.read import read_machine
 from support_exudyn.machines.four_column_support import HydraulicSupport
-from support_exudyn.sweeps import work
+from tests.cases.sweep_cases import run_by
 
 README = Path(__file__).parents[2] / "README.md"
 FIRST, LAST = "## Your own support in ten minutes\n", "\n## Ask for an accuracy"
@@ -38,10 +38,7 @@ def test_all_commands_work_on_a_run_of_a_moment(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(
-        "support_exudyn.sweeps.run.in_processes",
-        lambda tasks, store, *_: (work.run_into(store, task) for task in tasks),  # here
-    )
+    run_by(monkeypatch)
     for words in commands():
         if words[0] == "cd":
             monkeypatch.chdir(words[1])

@@ -99,10 +99,9 @@ def test_values_have_the_units_of_their_keys(tmp_path: Path) -> None:
     [record]
     numbers = ["tip.x.mean"]
     after_s = 0.25
-    keep_runs = false
     """
     plan = read_sweep(write(tmp_path, text))
-    assert plan.record == Record(("tip.x.mean",), after=0.25, keep_runs=False)
+    assert plan.record == Record(("tip.x.mean",), after=0.25)
     assert plan.names == ("pins.rear_base.clearance_mm", "duration_s", "machine.pivots_mm.tip")
     first, second = map(plan.scenario, plan.points)
     assert [one.clearance_pins["rear_base"].contact.bearing.clearance for one in (first, second)] == [

@@ -12,11 +12,11 @@ from support_exudyn.mechanics.channels import DataNeeds
 from support_exudyn.mechanics.joint_friction import friction_series
 from support_exudyn.mechanics.observed_run import Trajectory
 from support_exudyn.mechanics.reactions import joint_forces
-from support_exudyn.mechanics.trajectory import OilEvent, Series
-from support_exudyn.scene.arrays import LOSSES, MEMORY, Matrix
+from support_exudyn.mechanics.trajectory import ContactSeries, OilEvent, Series
+from support_exudyn.scene.arrays import CONTACT_NUMBERS, CONTACT_PARTS, LOSSES, Matrix
 from support_exudyn.scene.hydraulics.series import leg_series
 from support_exudyn.scene.setup import Model
-from user_forces.contact_state import PinMemory
+from user_forces.contact import Contact
 
 
 def record_width(model: Model) -> int:
@@ -27,7 +27,7 @@ def record_width(model: Model) -> int:
         + model.states
         + 3 * scene.bodies.size
         + scene.rows.size
-        + MEMORY * scene.contacts.size
+        + CONTACT_NUMBERS * scene.contacts.size
         + 2 * scene.courses.size
         + scene.rubbing.size
     )
@@ -43,17 +43,22 @@ class _Records:
             model.states,
             count,
             scene.rows.size,
-            MEMORY * scene.contacts.size,
+            CONTACT_NUMBERS * scene.contacts.size,
             2 * scene.courses.size,
             scene.rubbing.size,
         ]
         parts = np.split(rows, np.cumsum(sizes)[:-1], axis=1)
         self.time = rows[:, 0].copy()
-        self.state, self.acceleration, held, memory, courses, self.friction = parts[1:]
+        self.state, self.acceleration, self._held, contacts, courses, self.friction = parts[1:]
         self.position, self.velocity = self.state[:, :count], self.state[:, count : 2 * count]
-        self.held = held[:, model.order]  # as the linkage has them
-        self.memory = memory.reshape(len(rows), scene.contacts.size, MEMORY)
+        self._order = model.order
+        self.contacts = contacts.reshape(len(rows), scene.contacts.size, CONTACT_NUMBERS)
         self.courses = courses.reshape(len(rows), scene.courses.size, 2)
+
+    @property
+    def held(self) -> Matrix:
+        """What joints carry, as the linkage has them."""
+        return self._held[:, self._order]
 
 
 def trajectory(
@@ -69,13 +74,13 @@ def trajectory(
         return found.courses[:, course[name], which] if name in course else still
 
     legs = leg_series(model.legs, found.time, _told(model, motion, driven), found.state, oil_events)
-    held = joint_forces(scenario.held.kinetics.constraints, found.held)
+    joined = DataNeeds.JOINTS in needed
+    held = joint_forces(scenario.held.kinetics.constraints, found.held) if joined else {}
     actuators = {name: one.force for name, one in legs.items() if name in linkage.actuators}
-    wanted = DataNeeds.CONTACTS in needed
     sections = {
-        name: [place.series(motion, _memories(model, found, n))]
+        name: [_contact(model, found, n, place.contact)]
         for n, (name, place) in enumerate(scenario.contact_places.items())
-        if wanted
+        if DataNeeds.CONTACTS in needed
     }
     loads = {
         name: load_series(load, name, motion, found.time)
@@ -91,7 +96,7 @@ def trajectory(
         acceleration=found.acceleration,
         sections=sections,
         **friction_series(joints, dict(zip(joints, found.friction.T, strict=True))),
-        **{**held, "actuators": {**held["actuators"], **actuators}},
+        **{**held, "actuators": {**held.get("actuators", {}), **actuators}},
         work=losses[:, 2],
         damping_loss=losses[:, 0],
         friction_loss=losses[:, 1],
@@ -120,11 +125,9 @@ def _told(
     return found
 
 
-def _memories(model: Model, found: _Records, n: int) -> Series:
-    """What a contact remembers at the records as PinMemory's fields, shape (n, 6)."""
-    closed, velocity = found.memory[:, n].T
-    still = np.zeros_like(closed)
+def _contact(model: Model, found: _Records, n: int, contact: Contact) -> ContactSeries:
+    """A contact at the records, as it stood in the scene."""
     state = int(model.scene.contacts[n]["state"])
-    deflection = found.state[:, state] if state >= 0 else still
-    named = {"in_contact": closed, "impact_velocity": velocity, "deflection": deflection}
-    return np.column_stack([named.get(name, still) for name in PinMemory._fields])
+    deflection = found.state[:, state] if state >= 0 else None
+    parts = dict(zip(CONTACT_PARTS, np.ascontiguousarray(found.contacts[:, n].T), strict=True))
+    return ContactSeries(contact, **parts, deflection=deflection)

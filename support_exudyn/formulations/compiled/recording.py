@@ -9,8 +9,8 @@ from support_exudyn.formulations.compiled.step import WEIGHTS, close_joints, com
 from support_exudyn.formulations.statistics.steps import INNER, OF_STEP
 from support_exudyn.scene.arrays import (
     CLAMPED,
+    CONTACT_NUMBERS,
     DECAY,
-    MEMORY,
     NODES,
     RECORDS,
     STAGES,
@@ -20,7 +20,8 @@ from support_exudyn.scene.arrays import (
     Vector,
 )
 from support_exudyn.scene.compilation import compiled, once
-from support_exudyn.scene.motion import follow_courses
+from support_exudyn.scene.forces import observe, press
+from support_exudyn.scene.motion import follow_courses, place
 from user_forces.roots import NEAR_PEAK, NEAR_TOP, PEAK_LOOKS, PEAK_SAMPLES, StepPeak, peak_place, peak_with
 
 LOBATTO_END, LOBATTO_INNER = 1 / 12, 5 / 12  # weights of Lobatto's rule with four nodes
@@ -64,8 +65,12 @@ def write_record(scene: SceneArrays, t: float, y: Vector, slope: Vector, row: Ve
     i += scene.rows.size
     for k in range(scene.contacts.size):
         one = scene.contacts[k]
-        row[i], row[i + 1] = one.closed, one.impact_velocity
-        i += MEMORY
+        pressed = one.closed != 0.0 and one.depth > 0.0
+        row[i], row[i + 1] = (one.fx, one.fy) if pressed else (0.0, 0.0)
+        row[i + 2], row[i + 3] = (one.normal, one.friction) if pressed else (0.0, 0.0)
+        row[i + 4], row[i + 5], row[i + 6] = one.depth, one.slip, one.impact_velocity
+        row[i + 7], row[i + 8] = one.x, one.y
+        i += CONTACT_NUMBERS
     for k in range(scene.courses.size):
         row[i], row[i + 1] = scene.courses[k].value, scene.courses[k].rate
         i += 2
@@ -76,12 +81,17 @@ def write_record(scene: SceneArrays, t: float, y: Vector, slope: Vector, row: Ve
 
 @compiled
 def evaluate_record(scene: SceneArrays, room: Scratch, t: float, forced: bool) -> None:
-    """Let the scene stand as in `room.probe`, within the last step at t [s]; forced: with forces."""
+    """Let the scene stand as in `room.probe`, within the last step at t [s]; forced: with all forces."""
     copy_contacts(room.then, scene.contacts)
     if forced:
         evaluate(scene, t, room.probe, room.slope, room.right)
-    else:
-        follow_courses(scene, t)
+        return
+    follow_courses(scene, t)
+    if scene.contacts.size > 0:
+        place(scene, room.probe)
+    for n in range(scene.contacts.size):
+        observe(scene, n, room.probe)
+        press(scene, n, room.probe, room.slope)
 
 
 @compiled
