@@ -27,7 +27,12 @@ NODES = chebyshev.chebpts1(DEGREE + 1)
 # the polynomial through values there, as Chebyshev's series: by sums of cosines, which lose no digits
 TO_SERIES = 2.0 / (DEGREE + 1) * np.cos(np.outer(np.arange(DEGREE + 1), np.arccos(NODES)))
 TO_SERIES[0] /= 2.0
+# the powers of the place in each of Chebyshev's polynomials, in columns
+TO_POWERS = np.zeros((DEGREE + 1, DEGREE + 1))
+for _n in range(DEGREE + 1):
+    TO_POWERS[: _n + 1, _n] = chebyshev.cheb2poly(np.eye(_n + 1)[_n])
 BETWEEN = np.array([-0.99, -0.37, 0.03, 0.51, 0.995])  # where a piece is looked at
+SERIES_BETWEEN = chebyshev.chebvander(BETWEEN, DEGREE)
 
 
 class Courses(NamedTuple):
@@ -95,11 +100,9 @@ def _fitted(
         rounding = math.ulp(max(size, float(np.abs(values).max())))
         series[np.abs(series) < rounding] = 0.0
         there = np.array([function(low + half * (x + 1.0)) for x in BETWEEN.tolist()])
-        wrong = float(np.abs(chebyshev.chebval(BETWEEN, series) - there).max())
+        wrong = float(np.abs(SERIES_BETWEEN @ series - there).max())
         steepest = float((np.abs(series) * np.arange(series.size) ** 2).sum()) / half
-        powers = np.zeros(DEGREE + 1)
-        found = chebyshev.cheb2poly(series)
-        powers[: found.size] = found
+        powers = TO_POWERS @ series
         if wrong <= EXACT * (rounding + math.ulp(high) * steepest):
             yield (low, half), powers
         elif depth < HALVINGS:

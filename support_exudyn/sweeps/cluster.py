@@ -59,13 +59,11 @@ def on_cluster(tasks: Iterable[Task], address: str) -> Generator[StoredRun, None
                 try:
                     row: StoredRun = future.result()
                 except KilledWorker as error:
-                    yield StoredRun(
-                        task.key, "killed", f"lost with its worker, again and again: {_said(error)}"
-                    )
+                    reason = f"lost with its worker, again and again: {_said(error)}"
+                    row = StoredRun(task.key, "killed", reason)
                 except CancelledError:
                     raise lost from None
-                else:
-                    yield row
+                yield row
                 future.release()
                 further(done)
         finally:

@@ -39,7 +39,6 @@ TIMES: Mapping[str, Callable[[TimeWindow], tuple[float, float]]] = {  # of extre
 }
 WORDS = (*STATISTICS, *TIMES)
 OF_SIGNED = ("max", "max_time")  # of a magnitude the greatest is the largest
-WILD = "*?["
 OF_IMPACTS = re.compile(r"(?P<stem>.+)\.(largest_force|largest_force_time|onset_[1-9]\d*\.(time|speed))")
 
 
@@ -80,11 +79,16 @@ def _channels_of(numbers: tuple[str, ...], known: tuple[str, ...]) -> tuple[str,
     return (*dict.fromkeys(found), "time")
 
 
+def is_pattern(name: str) -> bool:
+    """Whether a name stands for all that it matches."""
+    return any(letter in name for letter in "*?[")
+
+
 def check_numbers(scenario: Scenario, names: Iterable[str]) -> None:
     """Raise InputError if a number that is named, not a pattern, is none that its runs could have."""
     for name in names:
         channel, _, statistic = name.rpartition(".")
-        if any(letter in name for letter in WILD) or _is_of_impacts(name, scenario):
+        if is_pattern(name) or _is_of_impacts(name, scenario):
             continue
         if _is_magnitude(channel) and statistic in OF_SIGNED:
             meant = f"{channel}.{statistic.replace('max', 'largest')}"
@@ -115,20 +119,17 @@ def _is_of_impacts(name: str, scenario: Scenario) -> bool:
     found = OF_IMPACTS.fullmatch(name)
     if found is None:
         return False
-    kind, *rest = found["stem"].split(".")
-    if kind == "pin" and scenario.dimensions == 3:  # of either side, pin.front_base_left, and their edges
-        return 1 <= len(rest) <= 2 and rest[0] in {*scenario.linkage.pins, *scenario.space.bearings}
-    if kind == "pin":
-        return len(rest) == 1 and rest[0] in scenario.linkage.pins
-    if kind == "guide":
-        return len(rest) == 2 and rest[0] in scenario.linkage.slides
-    return found["stem"] in scenario.blocks
+    stem, stems = found["stem"], {place.stem for place in scenario.contact_places.values()}
+    if scenario.dimensions == 3:  # also of either side, pin.front_base_left, and of their edges
+        pins = {f"pin.{name}" for name in (*scenario.linkage.pins, *scenario.space.bearings)}
+        return bool({stem, stem.rpartition(".")[0]} & pins) or stem in stems
+    return stem in stems
 
 
 def _matching(
     pattern: str, usual: Mapping[str, ReportedNumber], result: Result, record: Record
 ) -> dict[str, ReportedNumber]:
-    if not any(letter in pattern for letter in WILD):
+    if not is_pattern(pattern):
         channel, _, statistic = pattern.rpartition(".")
         if pattern in usual:
             return {pattern: usual[pattern]}

@@ -6,7 +6,6 @@ The points of a plan are all combinations of some values, lists side by side, or
 import itertools
 import json
 import math
-import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Context, Decimal
@@ -17,7 +16,6 @@ from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.value import InputError
 
 MOST = 1_000_000  # runs of a sweep
-MOST_NAMED, LONGEST_NAME = 3, 80  # inputs whose values stand in names of runs, and letters of these
 DIGITS = Context(prec=12)  # of numbers that are spread over a range: far finer than they are known
 Point = dict[str, Any]  # what is varied, as the sweep's file writes it
 Inputs = Mapping[str, Any]  # the same, to be read
@@ -176,34 +174,11 @@ class Plan:
 
     @property
     def run_names(self) -> list[str]:
-        """A readable name for each run, such as "clearance_mm_1.5_friction_0.25"; of many inputs its number."""
+        """Names of the runs by their numbers, such as "run_07"."""
         digits = len(str(len(self.points)))
-        numbered = [f"run_{n:0{digits}}" for n in range(1, len(self.points) + 1)]
-        if self.sampled or not 1 <= len(self.names) <= MOST_NAMED:
-            return numbered
-        words = _last_keys(self.names)
-        found = [
-            "_".join(f"{word}_{_in_a_name(point[n])}" for n, word in words.items()) for point in self.points
-        ]
-        return found if len(set(found)) == len(found) and max(map(len, found)) <= LONGEST_NAME else numbered
+        return [f"run_{n:0{digits}}" for n in range(1, len(self.points) + 1)]
 
     @property
     def names(self) -> tuple[str, ...]:
         """Names of what is varied."""
         return tuple(self.points[0]) if self.points else ()
-
-
-def _last_keys(names: Sequence[str]) -> dict[str, str]:
-    """Names by the last of their keys; with those before where two would be alike."""
-    parts = {name: name.replace('"', "").split(".") for name in names}
-    size = next(
-        size
-        for size in range(1, max(map(len, parts.values())) + 1)
-        if len({"_".join(one[-size:]) for one in parts.values()}) == len(names)
-    )
-    return {name: "_".join(one[-size:]) for name, one in parts.items()}
-
-
-def _in_a_name(item: Any) -> str:
-    text = f"{float(item):.6g}" if isinstance(item, (Decimal, float)) else str(item)
-    return re.sub(r"[^\w.+-]+", "_", text).strip("_.")

@@ -3,7 +3,7 @@
 import os
 import time
 from collections.abc import Callable, Iterator
-from contextlib import closing
+from contextlib import closing, suppress
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -11,8 +11,8 @@ from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.result import Result
 from support_exudyn.simulation.simulate import simulate
 from support_exudyn.sweeps.key import key
-from support_exudyn.sweeps.measures import WILD, check_numbers
-from support_exudyn.sweeps.plan import Inputs, Plan
+from support_exudyn.sweeps.measures import check_numbers, is_pattern
+from support_exudyn.sweeps.plan import Plan
 from support_exudyn.sweeps.store import Store, StoredRun
 from support_exudyn.sweeps.table import FILE, SweepTable
 from support_exudyn.sweeps.work import Task, here, reason_of
@@ -97,7 +97,7 @@ def sweep(
         if prune:
             outcome.pruned = keeper.store.prune(table.keys)
     outcome.missing = tuple(
-        name for name in plan.record.numbers if not _is_pattern(name) and name not in table.numbers
+        name for name in plan.record.numbers if not is_pattern(name) and name not in table.numbers
     )
     return outcome
 
@@ -124,10 +124,6 @@ def open_run(plan: Plan, name: str) -> Result:
     if name not in names:
         raise InputError(f"run = {short(name)}: there is none of this name; {nearest(name, names)}")
     return simulate(plan.scenario(plan.points[names.index(name)]), errors=plan.errors)
-
-
-def _is_pattern(name: str) -> bool:
-    return any(letter in name for letter in WILD)
 
 
 class _Keeper:
@@ -197,17 +193,15 @@ class _Keeper:
 
         A run with an ideal pin has fewer than one with clearance, so others are looked at, too.
         """
-        points = self._plan.points[first:][: LOOKED_AT + 1]
-        for name in self._plan.record.numbers:
-            if not any(self._can_have(name, point) for point in points):
-                check_numbers(scenario, [name])
-
-    def _can_have(self, name: str, point: Inputs) -> bool:
-        try:
-            check_numbers(self._plan.scenario(point), [name])
-        except Exception:  # of classes of one's own any
-            return False
-        return True
+        left = list(self._plan.record.numbers)
+        for point in self._plan.points[first:][: LOOKED_AT + 1]:
+            for name in [*left]:
+                with suppress(Exception):  # of classes of one's own any
+                    check_numbers(self._plan.scenario(point), [name])
+                    left.remove(name)
+            if not left:
+                return
+        check_numbers(scenario, left)
 
     def _set(self, numbers: list[int], row: StoredRun) -> None:
         for number in numbers:

@@ -19,7 +19,6 @@ from user_forces.values.value import InputError, cleaned, short
 
 FORMAT = "support_exudyn sweep 2"
 FILE = "table.parquet"
-WHOLE = 2**63  # whole numbers of a column are smaller
 OWN = b"support_exudyn"  # of the schema's metadata
 UNIT_WORDS = {"^": "", "/": "_per_", " ": "_"}
 MEANINGS = {
@@ -151,25 +150,17 @@ def is_sampled(table: pa.Table) -> bool:
 
 
 def _inputs(values: Sequence[Any]) -> pa.Array:
-    """What was varied: numbers, texts, or anything else as JSON; numbers that no column holds as texts, too."""
-    if all(isinstance(one, (int, float, Decimal)) and not isinstance(one, bool) for one in values):
-        if all(isinstance(one, int) and abs(one) < WHOLE for one in values):
-            return pa.array(values, pa.int64())
-        if all(_fits(one) for one in values):
-            return pa.array([float(one) for one in values])
-    if all(isinstance(one, bool) for one in values):
-        return pa.array(values)
+    """What was varied: numbers, truth values or texts; anything else, also what no column holds, as JSON."""
+    plain = [float(one) if isinstance(one, Decimal) else one for one in values]
+    try:
+        found = pa.array(plain)
+    except (pa.ArrowException, OverflowError):
+        found = pa.nulls(len(plain))
+    if any(kind(found.type) for kind in (pa.types.is_integer, pa.types.is_floating, pa.types.is_boolean)):
+        return found
     return pa.array(
         [cleaned(one if isinstance(one, str) else json.dumps(one, default=_plain)) for one in values]
     )
-
-
-def _fits(one: int | float | Decimal) -> bool:
-    """Whether a number is one of 64 bits: a whole one to its last digit, others rounded."""
-    try:
-        return float(one) == one or not isinstance(one, int)
-    except OverflowError:
-        return False
 
 
 def _plain(item: Any) -> Any:

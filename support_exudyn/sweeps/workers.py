@@ -12,7 +12,7 @@ from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExe
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager, suppress
 from functools import partial
-from typing import Any, TypeVar
+from typing import Any, NoReturn, TypeVar
 
 from support_exudyn.formulations.interruption import kept_from_children
 
@@ -44,9 +44,6 @@ class ProcessEndedError(RuntimeError):
         self.place, self.share = place, share
         super().__init__(f"job {place + 1}: {self.reason}")
 
-    def __reduce__(self) -> tuple[type[ProcessEndedError], tuple[int, float]]:
-        return ProcessEndedError, (self.place, self.share)
-
 
 class NoProcessError(RuntimeError):
     """Processes end before they begin any work."""
@@ -56,6 +53,10 @@ class NoProcessError(RuntimeError):
             "processes end before they begin their work; a script that starts some must do so below "
             "if __name__ == '__main__', and there must be memory left for them"
         )
+
+
+def _raised(error: ProcessEndedError) -> NoReturn:
+    raise error
 
 
 class Workers:
@@ -80,30 +81,23 @@ class Workers:
         jobs: Sequence[tuple[Any, ...]],
         work: Callable[..., T],
         progress: Callable[[list[float]], None],
-        ended: Callable[[ProcessEndedError], T] | None = None,
+        ended: Callable[[ProcessEndedError], T] = _raised,
     ) -> list[T]:
         """What `work` returns for every job, in their order; they are started in that order too.
 
         progress: receives the share done of every job ten times a second. ended: gives what to return for a job
-        whose process ended, see `stream`; without it the first such error is raised when all others are done.
+        whose process ended, see `stream`; by default that is raised.
         """
-        found: dict[int, T | ProcessEndedError] = {}
+        found: dict[int, T] = {}
 
         def tell(shares: Mapping[int, float]) -> None:
             progress([1.0 if n in found else shares.get(n, 0.0) for n in range(len(jobs))])
 
-        found.update(self.stream(jobs, work, tell))
+        for number, one in self.stream(jobs, work, tell):
+            found[number] = ended(one) if isinstance(one, ProcessEndedError) else one
         if jobs:
             tell({})
-        results = []
-        for n in range(len(jobs)):
-            one = found[n]
-            if isinstance(one, ProcessEndedError):
-                if ended is None:
-                    raise one
-                one = ended(one)
-            results.append(one)
-        return results
+        return [found[n] for n in range(len(jobs))]
 
     def stream(
         self, jobs: Iterable[tuple[Any, ...]], work: Callable[..., T], tell: Tell | None = None
@@ -116,20 +110,8 @@ class Workers:
 
         tell: receives the shares done of the jobs under way, by number, ten times a second.
         """
-        lost: list[Job] = []
-        for job, result in self._stream(enumerate(jobs), work, tell, len(self._shares) - 1):
-            if isinstance(result, ProcessEndedError):
-                lost.append(job)
-            else:
-                yield job[0], result
-        for job, result in self._stream(lost, work, tell, 1):
-            yield job[0], result
-
-    def _stream(
-        self, jobs: Iterable[Job], work: Callable[..., T], tell: Tell | None, room: int
-    ) -> Iterator[tuple[Job, T | ProcessEndedError]]:
-        """Jobs and what `work` returns, with so many jobs under way at most."""
-        source, free = iter(jobs), list(range(room))
+        source, free = iter(enumerate(jobs)), list(range(len(self._shares) - 1))
+        lost: list[Job] | None = []  # None while they are done by themselves
         held: dict[Future[T], tuple[Job, int, Executor]] = {}
         try:
             while True:
@@ -137,7 +119,10 @@ class Workers:
                     place = free.pop()
                     held[self._submit(job, place, work)] = job, place, self._running()
                 if not held:
-                    return
+                    if not lost:
+                        return
+                    source, free, lost = iter(lost), [0], None
+                    continue
                 finished, _ = wait(held, None if tell is None else POLL, FIRST_COMPLETED)
                 if tell is not None:
                     tell({job[0]: max(0.0, self._shares[place]) for job, place, _ in held.values()})
@@ -145,10 +130,13 @@ class Workers:
                     job, place, pool = held.pop(future)
                     free.append(place)
                     if not isinstance(future.exception(), BrokenProcessPool):
-                        yield job, future.result()
+                        yield job[0], future.result()
                         continue
                     self._renew(pool)
-                    yield job, ProcessEndedError(job[0], max(0.0, self._shares[place]))
+                    if lost is None:
+                        yield job[0], ProcessEndedError(job[0], max(0.0, self._shares[place]))
+                    else:
+                        lost.append(job)
         finally:
             for future in held:
                 future.cancel()

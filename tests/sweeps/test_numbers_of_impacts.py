@@ -62,7 +62,6 @@ def test_every_number_that_a_run_tells_may_be_asked_for(dimensions: int) -> None
     ("dimensions", "name"),
     [
         (2, "rok.largest_force"),
-        (2, "rock.onset_0.time"),
         (2, "rock.onset_1.tim"),
         (2, "rock.left.onset_1.time"),
         (2, "pin.rear_base.left.onset_1.time"),

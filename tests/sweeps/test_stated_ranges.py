@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from decimal import Decimal
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -35,15 +35,16 @@ def write(folder: Path, vary: str, head: str = 'method = "latin_hypercube"\nsamp
     return path
 
 
+def in_each_part(points: list[dict[str, Any]], name: str, low: float, high: float) -> bool:
+    count = len(points)
+    return sorted(int(count * (float(one[name]) - low) / (high - low)) for one in points) == [*range(count)]
+
+
 def test_each_sample_is_the_machine_with_these_numbers_in_it(tmp_path: Path) -> None:
     plan = read_sweep(write(tmp_path, '"machine.*" = "stated range"'))
     assert sorted(plan.names) == sorted(DRAWN)
-    assert len(plan.points) == 4
     for n, point in enumerate(plan.points):
         tip, link, canopy = (point[name] for name in DRAWN)
-        assert 3800 <= tip <= 4000
-        assert 700 <= link <= Decimal("1500.5")
-        assert 4000 <= canopy <= 13000
         by_hand = OURS.replace("rear_link = 900", f"rear_link = {link}").replace("[3900,", f"[{tip},")
         by_hand = by_hand.replace("canopy = 5200", f"canopy = {canopy}")
         (tmp_path / f"by_hand_{n}.toml").write_text(by_hand, encoding="utf-8")
@@ -52,8 +53,7 @@ def test_each_sample_is_the_machine_with_these_numbers_in_it(tmp_path: Path) -> 
         assert plan.scenario(point) == expected
         assert key(plan.scenario(point)) == key(expected)
     for name, low, high in zip(DRAWN, (3800, 700, 4000), (4000, 1500.5, 13000), strict=True):
-        parts = sorted(int(4 * (float(point[name]) - low) / (high - low)) for point in plan.points)
-        assert parts == [0, 1, 2, 3]  # one in each quarter
+        assert in_each_part(list(plan.points), name, low, high)
 
 
 @pytest.mark.parametrize(
@@ -112,7 +112,6 @@ def with_leg(folder: Path, vary: str) -> Path:
     ("vary", "drawn"),
     [
         ('"actuators.*" = "stated range"', [*OF_SCENARIO][:2]),
-        ('"loads.*" = "stated range"', [*OF_SCENARIO][2:]),
         ('"*.front_column.bulk_modulus_MPa" = "stated range"', [*OF_SCENARIO][1:2]),
         ('"actuators.*" = "stated range"\n"loads.*" = "stated range"', [*OF_SCENARIO]),
     ],
@@ -121,9 +120,7 @@ def test_numbers_of_a_scenario_are_drawn_from_its_ranges(vary: str, drawn: list[
     plan = read_sweep(with_leg(tmp_path, vary))
     assert sorted(plan.names) == sorted(drawn)
     for name in drawn:
-        low, high = OF_SCENARIO[name]
-        parts = sorted(int(3 * (float(point[name]) - low) / (high - low)) for point in plan.points)
-        assert parts == [0, 1, 2]  # one in each third
+        assert in_each_part(list(plan.points), name, *OF_SCENARIO[name])
     for point in plan.points:  # the same as where the numbers are written by hand
         table = load_toml(tmp_path / "a.toml")
         for name in drawn:

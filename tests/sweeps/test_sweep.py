@@ -65,7 +65,7 @@ def test_rows_are_in_the_order_of_the_plan_with_numbers_of_their_runs(tmp_path: 
 
 def test_a_run_is_computed_again_as_a_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = write_sweep(tmp_path, speeds(2))
-    assert main(["sweep", str(path), "--out", str(tmp_path), "--open-run", "speed_m_per_s_0.3"]) == 0
+    assert main(["sweep", str(path), "--out", str(tmp_path), "--open-run", "run_2"]) == 0
     run = Result.load(capsys.readouterr().out.strip())
     assert run.scenario.machine.speed == 0.3  # type: ignore[attr-defined]
 

@@ -33,14 +33,11 @@ def _soon_started() -> Iterator[None]:
         yield
 
 
-@pytest.mark.parametrize(
-    "number", [3, pytest.param(41, marks=pytest.mark.slow)]
-)  # by itself, and among others that are sent with it
 def test_a_run_whose_process_is_killed_is_a_row_and_is_tried_again(
-    tmp_path: Path, number: int, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    number, middle = 3, 1
     plan = read_sweep(write_sweep(tmp_path, speeds(number)))
-    middle = number // 2
     killing = float(plan.points[middle][SPEED])
 
     def sent(scenario: Scenario) -> object:

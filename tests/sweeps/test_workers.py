@@ -93,29 +93,18 @@ def test_results_come_back_in_the_order_of_the_jobs(pool: Workers) -> None:
     assert len(processes) <= 2
 
 
-def run_until_told(pool: Workers, jobs: int, folder: Path) -> list[list[float]]:
-    """The shares that are told of jobs of which each goes on until it is told of."""
+def test_shares_are_told_while_a_job_works_and_end_at_one(pool: Workers, tmp_path: Path) -> None:
     told: list[list[float]] = []
 
     def tell(shares: list[float]) -> None:
         told.append(list(shares))
         for place, share in enumerate(shares):
             if share == 0.5:
-                (folder / str(place)).touch()
+                (tmp_path / str(place)).touch()
 
-    pool.run([(folder,)] * jobs, stay_until_told, tell)
-    return told
-
-
-def test_shares_are_told_while_a_job_works_and_end_at_one(pool: Workers, tmp_path: Path) -> None:
-    told = run_until_told(pool, 2, tmp_path)
+    pool.run([(tmp_path,)] * 2, stay_until_told, tell)
     assert told[-1] == [1.0, 1.0]
     assert all(a <= b for one, other in pairwise(told) for a, b in zip(one, other, strict=True))
-    # the next sweep starts from zero
-    told.clear()
-    pool.run([(0.0,)] * 3, stay, lambda shares: told.append(list(shares)))
-    assert all(set(shares) <= {0.0, 0.5, 1.0} for shares in told)
-    assert told[-1] == [1.0, 1.0, 1.0]
 
 
 def test_an_exception_of_a_job_is_raised_here_and_the_rest_is_dropped(pool: Workers, tmp_path: Path) -> None:

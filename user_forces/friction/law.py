@@ -93,7 +93,8 @@ class FrictionLaw(Value, ABC):
     @cached_property
     def _coefficients(self) -> tuple[float, ...]:
         """Ratios of friction to normal force at SLIPS, of a law without a state."""
-        return tuple(abs(self(slip, 1.0)) for slip in SLIPS)
+        force, own = self.force_formula
+        return tuple(abs(force(slip, 1.0, *own)) for slip in SLIPS)
 
     @property
     def largest_coefficient(self) -> float:

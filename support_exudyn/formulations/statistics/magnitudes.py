@@ -37,7 +37,9 @@ def divided(
     there = np.diff(edges) > LEAST
     counts = np.ones(len(time), int)
     counts[steps] = there.sum(axis=1)
-    pieces = np.repeat(np.isin(np.arange(len(time)), steps), counts)  # of all, those of divided steps
+    divided_steps = np.zeros(len(time), bool)
+    divided_steps[steps] = True
+    pieces = np.repeat(divided_steps, counts)
     low, high = edges[:, :-1][there], edges[:, 1:][there]
     powers = (low[:, None] + (high - low)[:, None] * NODES)[..., None] ** np.arange(OF_STEP)
 
