@@ -169,6 +169,8 @@ LOSSES = 3  # last components of the state: damping, friction, and the work of w
 DAMPING_LOSS, FRICTION_LOSS, WORK = -3, -2, -1
 
 # what a record keeps of a contact besides the state, see `ContactSeries`
-CONTACT_PARTS = ("force_x", "force_y", "normal_force", "friction_force", "depth", "slip")
-CONTACT_PARTS += ("impact_velocity", "eccentricity_x", "eccentricity_y")
+CONTACT_PARTS = (
+    *("force_x", "force_y", "normal_force", "friction_force", "depth", "slip"),
+    *("impact_velocity", "eccentricity_x", "eccentricity_y"),
+)
 CONTACT_NUMBERS = len(CONTACT_PARTS)

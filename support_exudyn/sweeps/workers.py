@@ -110,7 +110,8 @@ class Workers:
 
         tell: receives the shares done of the jobs under way, by number, ten times a second.
         """
-        source, free = iter(enumerate(jobs)), list(range(len(self._shares) - 1))
+        source: Iterator[Job] = iter(enumerate(jobs))
+        free = list(range(len(self._shares) - 1))
         lost: list[Job] | None = []  # None while they are done by themselves
         held: dict[Future[T], tuple[Job, int, Executor]] = {}
         try:
