@@ -88,16 +88,16 @@ class Workers:
         progress: receives the share done of every job ten times a second. ended: gives what to return for a job
         whose process ended, see `stream`; by default that is raised.
         """
-        found: dict[int, T] = {}
+        found: dict[int, T | ProcessEndedError] = {}
 
         def tell(shares: Mapping[int, float]) -> None:
             progress([1.0 if n in found else shares.get(n, 0.0) for n in range(len(jobs))])
 
-        for number, one in self.stream(jobs, work, tell):
-            found[number] = ended(one) if isinstance(one, ProcessEndedError) else one
+        found.update(self.stream(jobs, work, tell))
         if jobs:
             tell({})
-        return [found[n] for n in range(len(jobs))]
+        results = (found[n] for n in range(len(jobs)))
+        return [ended(one) if isinstance(one, ProcessEndedError) else one for one in results]
 
     def stream(
         self, jobs: Iterable[tuple[Any, ...]], work: Callable[..., T], tell: Tell | None = None

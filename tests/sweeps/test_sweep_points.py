@@ -13,7 +13,6 @@ from hypothesis import strategies as st
 from support_exudyn.sweeps import Record, grid, latin_hypercube, read_sweep
 from support_exudyn.sweeps.file import keys_of, replaced
 from support_exudyn.sweeps.plan import Range
-from support_exudyn.sweeps.store import StoredNumber, StoredRun
 from user_forces.values.value import InputError
 
 SCENARIO = """
@@ -132,24 +131,3 @@ def test_what_is_wrong_in_a_file_is_said(tmp_path: Path, line: str) -> None:
     path = write(tmp_path, f'scenario = "rise.toml"\n{line}\n')
     with pytest.raises(InputError, match=rf"sweep.toml: .*{WRONG[line]}"):
         read_sweep(path)
-
-
-# --- rows ---
-
-
-def test_rows_are_read_as_they_were_written_or_not_at_all() -> None:
-    row = StoredRun(
-        "abc",
-        "done",
-        wall_time=0.1,
-        numbers={"b": StoredNumber(1 / 3, None, "N"), "a": StoredNumber(-0.0, 1e-9, "m")},
-    )
-    text = row.to_text()
-    again = StoredRun.from_text(text)
-    assert again == row
-    assert list(again.numbers) == ["b", "a"]
-    for place in range(0, len(text), 7):
-        with pytest.raises(ValueError, match="digest"):
-            StoredRun.from_text(text[:place] + chr(ord(text[place]) ^ 1) + text[place + 1 :])
-        with pytest.raises(ValueError, match="digest"):
-            StoredRun.from_text(text[:place])
