@@ -2,8 +2,8 @@
 
 The work is the paper's rise with 1.5 mm of clearance and friction in the rear-link pin. The number is the
 largest force in that pin. Its error is the distance from a run of the compiled formulation at a tolerance of
-1e-12. Programs that are not installed are left out. The study `speed_accuracy` leaves out settings that take
-minutes. The command `benchmark` has them, and its last table is `studies/benchmarking/RESULTS.md`.
+1e-12. The study `speed_accuracy` leaves out settings that take minutes. The command `benchmark` has them, and
+its last table is `studies/benchmarking/RESULTS.md`.
 """
 
 import statistics
@@ -11,7 +11,6 @@ import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -20,7 +19,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter
 
-from studies.benchmarking.peers.in_mujoco import run_mujoco
 from studies.benchmarking.peers.in_scipy import run_lsoda
 from studies.benchmarking.peers.on_exudyn import run_stock
 from studies.common import paper_machine
@@ -79,15 +77,13 @@ class PeerProgram:
     """A program or a way to use it.
 
     settings: labels and values from coarse to fine. run: the scenario by a setting, and the largest pin force
-    [N]. look: colour and marker in the figure. package: that has to be installed. slow: labels of settings that
-    take minutes.
+    [N]. look: colour and marker in the figure. slow: labels of settings that take minutes.
     """
 
     name: str
     settings: Mapping[str, Any]
     run: Callable[[Scenario, Any], float]
     look: tuple[str, str]
-    package: str = ""
     slow: Sequence[str] = ()
 
 
@@ -147,13 +143,6 @@ PROGRAMS: Mapping[str, PeerProgram] = {
             ("#000000", "s"),
         ),
         PeerProgram(
-            "MuJoCo",
-            _steps(2e-4, 1e-4, 5e-5, 2e-5),
-            lambda scenario, step: run_mujoco(scenario, step).force.max(),
-            ("#D55E00", "P"),
-            "mujoco",
-        ),
-        PeerProgram(
             "scipy's LSODA",
             _tolerances(1e-4, 1e-5, 1e-6, 1e-7),
             lambda scenario, tolerance: run_lsoda(scenario, tolerance).force.max(),
@@ -167,12 +156,10 @@ PROGRAMS: Mapping[str, PeerProgram] = {
 
 
 def measured(with_slow: bool = False) -> Iterator[TradePoint]:
-    """Run the programs that are installed, each by all its settings."""
+    """Run all programs, each by all its settings."""
     warm_up()
     scenario, exact = rise(), exact_force().value
     for program in PROGRAMS.values():
-        if program.package and find_spec(program.package) is None:
-            continue
         warn(f"{WORK}: {program.name}")
         for label, value in program.settings.items():
             if with_slow or label not in program.slow:
@@ -216,8 +203,7 @@ CAPTION = (
     "Filled circles: runs to an accuracy, at least three each, that report their error; all others are single "
     "runs. Exudyn, stock recipe: generalised alpha at fixed steps, the contact as a Python user function, no "
     "impact located. support-exudyn on Exudyn: the same engine and integrator with located impacts; compiled: "
-    "an embedded Runge-Kutta 5(4) method with error control. MuJoCo: Runge-Kutta 4 at fixed steps; LSODA: "
-    "equations of motion by hand."
+    "an embedded Runge-Kutta 5(4) method with error control. LSODA: equations of motion by hand."
 )
 SMALLEST = 1e-10  # errors below are those of the reference
 

@@ -1,7 +1,7 @@
-"""The generator of all drawn scenes: what is varied, how far, and a pin at a point of these ranges.
+"""Random choices, what is varied and how far, and a pin at a point of these ranges.
 
-Every range has a part that is sensible. The study draws from the whole or from that part; tests that measure
-errors draw from that part. The same numbers of a generator give the same scene.
+Every range has a part that is sensible. The study draws from the whole or from that part. The same numbers of a
+generator give the same scene.
 """
 
 import math
@@ -32,12 +32,12 @@ from user_forces import (
 from user_forces.normal.power_laws import PowerLaw
 
 T = TypeVar("T")
-POWER_LAWS: tuple[type[PowerLaw], ...] = (LankaraniNikravesh, Exact, HuntCrossley, Gonthier, Flores)
-LAWS = (*(law.__name__ for law in POWER_LAWS), PinInBore.__name__)
+LAWS: tuple[type[PowerLaw | PinInBore], ...] = (
+    LankaraniNikravesh, Exact, HuntCrossley, Gonthier, Flores, PinInBore,
+)  # fmt: skip
 PAPER = paper_machine.stiffness(1.5)  # N/m^1.5
 DEPTH = 1e-3  # [m] at which laws of all exponents have the same force
-BORE_RADIUS = paper_machine.BORE_RADIUS
-SLENDERNESS = 0.7 / BORE_RADIUS  # length of the pin over the radius of its bore
+SLENDERNESS = 0.7 / paper_machine.BORE_RADIUS  # length of the pin over the radius of its bore
 MODULUS = effective_modulus(STEEL, STEEL_35CRMO)
 LARGEST_SPEED = 0.1  # of friction laws [m/s]
 WITHOUT_FRICTION = 0.3  # share of the random scenes
@@ -50,13 +50,6 @@ class Span(NamedTuple):
     high: float
     sensible: tuple[float, float]
     even: bool = False
-
-    def draw(self, share: float, sensible: bool) -> float:
-        """The value at a share of the range, 0 to 1."""
-        low, high = self.sensible if sensible else (self.low, self.high)
-        if self.even:
-            return low + share * (high - low)
-        return low * math.pow(high / low, share)
 
 
 @dataclass(frozen=True)
@@ -79,7 +72,8 @@ class Draw:
 
     def size(self, span: Span) -> float:
         """A number of a range."""
-        return span.draw(self.even(0.0, 1.0), self.sensible)
+        low, high = span.sensible if self.sensible else span[:2]
+        return low + self.even(0.0, 1.0) * (high - low) if span.even else self.log(low, high)
 
     def sizes(self, spans: Mapping[str, Span]) -> dict[str, float]:
         """Numbers of several ranges, by their names."""
@@ -97,8 +91,6 @@ class Draw:
         """An element in this share of all draws, else none."""
         return make() if self.chance(share) else None
 
-
-# --- a clearance pin ---
 
 SPANS = {
     "clearance_m": Span(1e-6, 2e-2, (5e-5, 5e-3)),
@@ -124,22 +116,17 @@ class Point:
     static_speed_m_s: float = 1e-4
     dynamic_speed_m_s: float = 1e-2
     exponent: float = 1.5
-    law: str = "LankaraniNikravesh"
+    law: type[PowerLaw | PinInBore] = LankaraniNikravesh
     step_s: float = 5e-4
     spectral_radius: float = 0.5
     bore: Literal["first", "second"] = "first"
     eccentricity: tuple[float, float] = (0.0, 0.0)  # in clearances
-    bore_radius: float = BORE_RADIUS  # [m]
-    pace: float = 1.0  # factor on the duration of a run and on its number of steps
+    bore_radius: float = paper_machine.BORE_RADIUS  # [m]
 
     @property
-    def pin(self) -> ClearancePin:
-        """The clearance pin."""
-        c = self.clearance_m
-        x, y = self.eccentricity
-        bearing = JournalBearing(bore_radius=self.bore_radius, clearance=c)
-        contact = JournalContact(bearing=bearing, normal=self.normal, friction=self.friction)
-        return ClearancePin(contact=contact, bore=self.bore, eccentricity=(c * x, c * y))
+    def bearing(self) -> JournalBearing:
+        """The journal and its bore."""
+        return JournalBearing(bore_radius=self.bore_radius, clearance=self.clearance_m)
 
     @property
     def normal(self) -> NormalLaw:
@@ -147,27 +134,29 @@ class Point:
 
         A pin along its length has no exponent, and a modulus from a tenth to ten times that of steel.
         """
-        if self.law == PinInBore.__name__:
+        if issubclass(self.law, PinInBore):
             return PinInBore(
-                bearing=JournalBearing(bore_radius=self.bore_radius, clearance=self.clearance_m),
+                bearing=self.bearing,
                 length=SLENDERNESS * self.bore_radius,
                 effective_modulus=self.stiffness ** (1.0 / 3.0) * MODULUS,
                 restitution=self.restitution,
             )
-        kind = next(law for law in POWER_LAWS if law.__name__ == self.law)
         stiffness = self.stiffness * PAPER * DEPTH ** (1.5 - self.exponent)
-        return kind(stiffness=stiffness, restitution=self.restitution, exponent=self.exponent)
+        return self.law(stiffness=stiffness, restitution=self.restitution, exponent=self.exponent)
 
     @property
-    def friction(self) -> Ambrosio | Frictionless:
-        """The law of friction."""
-        if self.mu == 0.0:
-            return Frictionless()
-        return Ambrosio(
-            sliding_coefficient=self.mu,
-            static_speed=self.static_speed_m_s,
-            dynamic_speed=self.dynamic_speed_m_s,
-        )
+    def pin(self) -> ClearancePin:
+        """The clearance pin."""
+        friction: Ambrosio | Frictionless = Frictionless()
+        if self.mu != 0.0:
+            friction = Ambrosio(
+                sliding_coefficient=self.mu,
+                static_speed=self.static_speed_m_s,
+                dynamic_speed=self.dynamic_speed_m_s,
+            )
+        contact = JournalContact(bearing=self.bearing, normal=self.normal, friction=friction)
+        x, y = (self.clearance_m * share for share in self.eccentricity)
+        return ClearancePin(contact=contact, bore=self.bore, eccentricity=(x, y))
 
 
 def drawn_point(of: Draw) -> Point:

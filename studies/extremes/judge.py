@@ -22,10 +22,17 @@ import numpy as np
 
 from studies.common.runs import bar
 from studies.extremes import long_runs
-from studies.extremes.legs import oil_open
 from studies.extremes.long_runs import LongRun
 from studies.extremes.scenes import Case
-from support_exudyn import Result, Scenario, SimulationError, SolverSettings, simulate
+from support_exudyn import (
+    HydraulicCylinder,
+    OilColumn,
+    Result,
+    Scenario,
+    SimulationError,
+    SolverSettings,
+    simulate,
+)
 from support_exudyn.formulations.registry import formulation
 from support_exudyn.scenario.scenario_data import LARGEST_STEP
 from support_exudyn.scenario.timescales import timescales
@@ -87,24 +94,22 @@ class Judgement:
     values: Mapping[str, float] = field(default_factory=dict)
 
 
-def run_with_its_error(scenario: Scenario) -> Result:
-    """Run a scene as a user does who wants numbers with their errors."""
-    return simulate(scenario, errors=True)
+Run = Callable[[Scenario], Result]
 
 
-def judge(make: Callable[[], Scenario], run: Callable[[Scenario], Result] = run_with_its_error) -> Judgement:
-    """Make a scene, run it and judge the result; warnings are errors."""
+def judge(make: Callable[[], Scenario], run: Run | None = None) -> Judgement:
+    """Make a scene, run it and judge the result; warnings are errors. run: None: with an error, as users do."""
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("error")
-            return _judged(make, run)
+            return _judged(make, run or (lambda scenario: simulate(scenario, errors=True)))
     except Exception as error:  # whatever it is: nobody has explained it
         where = traceback.extract_tb(error.__traceback__)[-1]
         place = f"{where.filename.rpartition('/')[2]}:{where.lineno}"
         return Judgement(SILENT, f"{type(error).__name__}: {error} ({place})"[:400])
 
 
-def _judged(make: Callable[[], Scenario], run: Callable[[Scenario], Result]) -> Judgement:
+def _judged(make: Callable[[], Scenario], run: Run) -> Judgement:
     """A failure has to say why, when, and what to change; a result is checked."""
     try:
         scenario = make()
@@ -123,17 +128,19 @@ def _judged(make: Callable[[], Scenario], run: Callable[[Scenario], Result]) -> 
         for name, pin in result.scenario.clearance_pins.items()
         if f"pin.{name}.depth" in result.channels
     ]
-    verdict = Judgement(
-        GOOD,
-        error=result.worst_error,
-        energy=OPEN * float(open_by.max()) / allowed if allowed > 0.0 else 0.0,
-        depth=max(depths, default=0.0),
-        oil=oil_open(result),
-        restitution=largest_restitution(result),
-        met=result.met,
-        **_circumstances(result.scenario),
+    return _compared(
+        result,
+        Judgement(
+            GOOD,
+            error=result.worst_error,
+            energy=OPEN * float(open_by.max()) / allowed if allowed > 0.0 else 0.0,
+            depth=max(depths, default=0.0),
+            oil=oil_open(result),
+            restitution=largest_restitution(result),
+            met=result.met,
+            **_circumstances(result.scenario),
+        ),
     )
-    return _compared(result, verdict)
 
 
 def _circumstances(scenario: Scenario) -> dict[str, Any]:
@@ -210,6 +217,28 @@ def largest_restitution(result: Result) -> float:
 
 
 # --- other runs of a scene ---
+
+
+def oil_open(result: Result) -> float:
+    """By how much the oil of a leg does not add up at worst, as a share of it; nan where none is counted.
+
+    The oil of a leg is that of the start, and that from inlets or its drive, less that through valves.
+    """
+    shares: list[float] = []
+    for name, model in result.scenario.legs.items():
+        if f"{name}.oil" not in result.channels:
+            continue
+        oil = result[f"{name}.oil"]
+        if isinstance(model, HydraulicCylinder):
+            inlet = result[f"{name}.let_in"]
+        else:
+            assert isinstance(model, OilColumn)  # the only other leg
+            drive = result.scenario.drive_of(name)
+            inlet = model.bore_area * np.array([drive.extension(t) for t in result.time.tolist()])
+        valves = [f"{name}.{way}" for way in ("yielded", "relieved") if f"{name}.{way}" in result.channels]
+        lost: Any = sum(result[way] - result[way][0] for way in valves)
+        shares.append(float(np.abs(oil - oil[0] - (inlet - inlet[0]) + lost).max() / oil[0]))
+    return max(shares, default=math.nan)
 
 
 def _halved(result: Result) -> tuple[Result, Result] | None:

@@ -31,9 +31,8 @@ from support_exudyn.simulation.single_run import paused_collector
 STEP = 2e-3  # [s]
 GROWTH, AT_REST = 8.0, 64.0  # of steps in flight, and where nothing moves
 IDEAL, SMOOTH, DRY, OIL, REST, CRANK = "ideal pins", "1.5 mm", "friction", "oil columns", "at rest", "crank"
-NAMES = (IDEAL, SMOOTH, DRY, OIL, REST, CRANK)
-DURATIONS = {name: 100.0 if name == CRANK else 1000.0 for name in NAMES}  # [s]
-PARTS = 10  # of a run: the first is compared with the last
+DURATIONS = dict.fromkeys((IDEAL, SMOOTH, DRY, OIL, REST), 1000.0) | {CRANK: 100.0}  # [s]
+TENTH = 0.1  # of a run: the first is compared with the last
 
 
 class LongRun(NamedTuple):
@@ -73,18 +72,17 @@ def scene(name: str, duration: float) -> Scenario:
     if name == CRANK:
         field_case = slider_crank.scenarios()[slider_crank.DRY]
         return replace(field_case, drive=Steady(rate=10.0), gravity=(0.0, -9.81), **settings)
+    if name == OIL:
+        columns = {name: replace(column, line=None) for name, column in paper_machine.oil_columns().items()}
+        settings |= {"actuators": columns, "step": 0.7 * STEP}
     friction = paper_machine.SLIDING_COEFFICIENT if name == DRY else 0.0
     pin = paper_machine.clearance_joint(paper_machine.CLEARANCE_MM, friction)
-    support = Scenario(
+    return Scenario(
         machine=reference_support(),
         pins={} if name == IDEAL else {paper_machine.CLEARANCE_PIN: pin},
         drive=Held() if name == REST else Reciprocating(stroke=0.1, period=4.0),
         **settings,
     )
-    if name == OIL:
-        columns = {name: replace(column, line=None) for name, column in paper_machine.oil_columns().items()}
-        return replace(support, actuators=columns, step=0.7 * STEP)
-    return support
 
 
 def run(scenario: Scenario, progress: Progress = silent) -> LongRun:
@@ -103,9 +101,8 @@ def run(scenario: Scenario, progress: Progress = silent) -> LongRun:
         raise SimulationError(failure)
     gaps = joints_apart(scenario, outcome)
     assert gaps is not None  # the motion is recorded
-    open_by, _ = energy_open(scenario, recorded)
-    times, tenth = outcome.trajectory.time, scenario.duration / PARTS
-    first, last = times <= tenth, times >= scenario.duration - tenth
+    energy, times = energy_open(scenario, recorded)[0] / turned_over(recorded), outcome.trajectory.time
+    first, last = times <= TENTH * scenario.duration, times >= (1.0 - TENTH) * scenario.duration
     return LongRun(
         simulated=scenario.duration,
         wall=wall,
@@ -114,6 +111,6 @@ def run(scenario: Scenario, progress: Progress = silent) -> LongRun:
         gap_first=float(gaps[first].max()),
         gap_last=float(gaps[last].max()),
         gap_slope=float(np.polyfit(times - times.mean(), gaps, 1)[0]),
-        energy_first=float(open_by[first][-1]) / turned_over(recorded),
-        energy_share=float(open_by[-1]) / turned_over(recorded),
+        energy_first=float(energy[first][-1]),
+        energy_share=float(energy[-1]),
     )

@@ -76,38 +76,22 @@ class CountedShare(NamedTuple):
         return f"{value:.3g} % ({low:.3g} to {high:.3g} %)"
 
 
-def share_of(held: Sequence[bool]) -> CountedShare:
-    """The share of those of which it holds."""
-    from scipy.stats import binomtest  # takes a second to import
-
-    exact = binomtest(sum(held), len(held)).proportion_ci(SURE, "exact")
-    return CountedShare(sum(held), len(held), (float(exact.low), float(exact.high)))
-
-
 def shares(judged: Judged) -> dict[tuple[str, str], CountedShare]:
     """What holds of the physically sensible scenes and of all that were drawn, by its name and theirs."""
+    from scipy.stats import binomtest  # takes a second to import
+
     box, random = of_groups(judged, (BOX,)), of_groups(judged, RANDOM)
-    return {
-        (GOOD, SENSIBLE): share_of([one.outcome == GOOD for one in box]),
-        ("accuracy_met", SENSIBLE): share_of([one.met for one in box]),
-        (SILENT, SENSIBLE): share_of([one.outcome == SILENT for one in box]),
-        **{(outcome, "drawn"): share_of([one.outcome == outcome for one in random]) for outcome in OUTCOMES},
+    held = {
+        (GOOD, SENSIBLE): [one.outcome == GOOD for one in box],
+        ("accuracy_met", SENSIBLE): [one.met for one in box],
+        (SILENT, SENSIBLE): [one.outcome == SILENT for one in box],
+        **{(outcome, "drawn"): [one.outcome == outcome for one in random] for outcome in OUTCOMES},
     }
-
-
-def middle(values: Sequence[float]) -> tuple[float, float]:
-    """The median of what was drawn, and how far that of all that could be drawn may be from it.
-
-    By the order of the values, with a confidence of SURE; infinitely far if there are too few of them.
-    """
-    from scipy.stats import binom  # takes a second to import
-
-    ordered = sorted(values)
-    median, last = float(np.median(ordered)), len(ordered) - 1
-    below = int(binom.ppf(0.5 * (1.0 - SURE), len(ordered), 0.5)) - 1
-    if below < 0:
-        return median, math.inf
-    return median, max(median - ordered[below], ordered[last - below] - median)
+    found = {}
+    for name, each in held.items():
+        low, high = binomtest(sum(each), len(each)).proportion_ci(SURE, "exact")
+        found[name] = CountedShare(sum(each), len(each), (float(low), float(high)))
+    return found
 
 
 # --- numbers ---
@@ -115,13 +99,17 @@ def middle(values: Sequence[float]) -> tuple[float, float]:
 
 def numbers(judged: Judged, long: Long) -> list[Number]:
     """Shares with their counting errors, extremes of this very set of runs, and what long runs came to."""
+    from scipy.stats import quantile_test  # takes a second to import
+
     made = []
     for (name, case), share in shares(judged).items():
         value, (low, high) = share.held / share.number, share.interval
         made.append(Number(name, case, value, "1", max(value - low, high - value)))
-    error, of_error = middle([one.error for one in of_groups(judged, RANDOM) if one.outcome == GOOD])
-    if math.isfinite(of_error):
-        made.append(Number("median_reported_error", "drawn, good", error, "1", of_error))
+    errors = [one.error for one in of_groups(judged, RANDOM) if one.outcome == GOOD]
+    low, high = quantile_test(errors, p=0.5).confidence_interval(SURE) if errors else (math.nan, math.nan)
+    middle = float(np.median(errors)) if errors else math.nan
+    if (of_error := max(middle - low, high - middle)) >= 0.0:  # none of too few
+        made.append(Number("median_reported_error", "drawn, good", middle, "1", float(of_error)))
     good = [verdict for _, verdict in judged if verdict.outcome == GOOD]
     of_these = f"the {len(good)} good of {len(judged)} runs"  # others have other extremes
     extremes = {

@@ -16,8 +16,7 @@ import numpy as np
 import user_forces as forces
 from studies.common import paper_machine
 from studies.extremes.drawn import Draw
-from studies.extremes.legs import LINE, Leg, drawn_pump, with_elements
-from studies.extremes.supports import leg_heads, pressing_roof
+from studies.extremes.legs import LINE, Leg, drawn_pump, leg_heads, pressing_roof, with_elements
 from support_exudyn import (
     ClearancePin,
     CubicStep,

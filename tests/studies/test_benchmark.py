@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 
 from studies.benchmarking import trade
-from studies.benchmarking.peers.in_mujoco import run_mujoco
 from studies.benchmarking.peers.in_scipy import run_lsoda
 from studies.benchmarking.peers.on_exudyn import run_stock
 from studies.benchmarking.peers.plain_support import PeerRun
@@ -24,7 +23,7 @@ from tests.cases.run_cases import PIN, loose_slider_crank, loose_support
 from user_forces import InputError
 
 Peer = Callable[[Scenario], PeerRun]
-PEERS = {"stock recipe": (run_stock, 1e-5), "mujoco": (run_mujoco, 1e-5), "LSODA": (run_lsoda, 1e-9)}
+PEERS = {"stock recipe": (run_stock, 1e-5), "LSODA": (run_lsoda, 1e-9)}
 DROP = loose_support(drive=Held(), duration=0.045)
 POINTS = [
     TradePoint(OURS_COMPILED, "standard", 0.5, 1e-8),
@@ -36,8 +35,6 @@ POINTS = [
 @pytest.fixture(params=PEERS)
 def peer(request: pytest.FixtureRequest) -> Peer:
     run, setting = PEERS[request.param]
-    if request.param == "mujoco":
-        pytest.importorskip("mujoco", reason="MuJoCo is not installed")
     return lambda scenario: run(scenario, setting)
 
 
@@ -100,8 +97,8 @@ def test_errors_are_distances_from_a_tight_run() -> None:
 def test_the_cheapest_setting_is_good_and_all_finer_ones_too(
     errors: tuple[float, ...], best: float | None
 ) -> None:
-    points = [TradePoint("MuJoCo", f"{error:g}", 1.0, error) for error in errors]
-    chosen = cheapest(points, "MuJoCo")
+    points = [TradePoint(STOCK, f"{error:g}", 1.0, error) for error in errors]
+    chosen = cheapest(points, STOCK)
     assert (chosen.error if chosen else None) == best
 
 

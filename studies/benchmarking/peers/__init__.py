@@ -1,1 +1,1 @@
-"""The support as users of others write it: Exudyn without this package's solver, MuJoCo, scipy."""
+"""The support as users of others write it: Exudyn without this package's solver, and scipy."""

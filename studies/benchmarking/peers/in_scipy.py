@@ -11,24 +11,23 @@ import math
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 from scipy.integrate import solve_ivp
 
 from studies.benchmarking.peers.plain_support import (
     COLUMN_LINK,
     JOURNAL_LINK,
-    JournalLog,
     PeerRun,
     PlainSupport,
+    Series,
     plain_support,
     undisturbed,
 )
+from support_exudyn.model.drives.drive import Held
 from support_exudyn.scenario.scenario import Scenario
 
 DRAWN_BACK = 50.0  # rate at which the drift of the conditions decays [1/s]
 MOST_PIECES = 2000  # of a run, each ends with an impact or separation
 NOTED = np.array([0.25, 0.5, 0.75, 1.0])  # parts of its long steps that are looked at
-Series = npt.NDArray[np.float64]
 
 
 def run_lsoda(scenario: Scenario, tolerance: float) -> PeerRun:
@@ -62,12 +61,15 @@ def run_lsoda(scenario: Scenario, tolerance: float) -> PeerRun:
                 closed = not closed
                 place, velocity, _ = equations.journal(state)
                 speed = max(0.0, float(place @ velocity) / support.clearance) if closed else 0.0
-    log = JournalLog(support)
-    for log.speed, found in pieces:
+    times, forces = [], []
+    for speed, found in pieces:
         within = np.concatenate([h + (k - h) * NOTED for h, k in itertools.pairwise(found.t)])
         for at, each in zip(within.tolist(), found.sol(within).T, strict=True):
-            log.note(at, *equations.journal(each))
-    return log.run()
+            (x, y), (vx, vy), spin = equations.journal(each)
+            fx, fy, _ = support.force(x, y, vx, vy, spin, speed)
+            times.append(at)
+            forces.append(math.hypot(fx, fy))
+    return PeerRun(np.array(times), np.array(forces))
 
 
 def _smooth(
@@ -104,8 +106,7 @@ def _smooth(
 
 
 class PeerEquations:
-    """PeerEquations of motion; a state has displacements [m] and turns [rad] of the links, then their rates,
-    shape (24,).
+    """Equations of motion; a state has displacements [m] and turns [rad] of the links, then their rates, (24,).
 
     Points of links are the pins at the links' own ends, the same pins on their parents, the heads of the
     columns and the journal. The Jacobian of all points changes by the turns alone.
@@ -118,14 +119,14 @@ class PeerEquations:
         points = [
             *((n, one.pin) for n, one in enumerate(links)),
             *((links[n].parent, links[n].pin) for n in carried),
-            *((COLUMN_LINK, one.head) for one in columns),
+            *((COLUMN_LINK, one.head_point) for one in columns),
             (JOURNAL_LINK, support.bore),
         ]
         self.link = np.array([n for n, _ in points])
         self.start = np.array([point for _, point in points])
         self.arm = self.start - np.array([links[n].centre for n in self.link])
-        self.feet = np.array([one.foot for one in columns])
-        self.lengths = np.array([one.length for one in columns])
+        self.feet = np.array([one.foot_point for one in columns])
+        self.lengths = np.array([one.start_length for one in columns])
         self.heads = slice(len(points) - 1 - len(columns), len(points) - 1)
         self.pins = np.eye(2 * len(links), 2 * len(points))  # from places of points to distances in pins
         for k, n in enumerate(carried):
@@ -155,6 +156,15 @@ class PeerEquations:
         arm = np.array([c * x - s * y, s * x + c * y])
         return at[:2] + arm - self.arm[-1], rate[:2] + rate[2] * np.array([-arm[1], arm[0]]), float(rate[2])
 
+    def motion(self, t: float) -> tuple[float, float, float]:
+        """Extension [m] of both columns, its rate [m/s] and second derivative [m/s^2] at a time [s]."""
+        drive = self.support.drive
+        second = 0.0
+        if not isinstance(drive, Held) and drive.start < t < drive.end:
+            width = drive.end - drive.start
+            second = drive.stroke * (6.0 - 12.0 * (t - drive.start) / width) / width**2
+        return drive.extension(t), drive.speed(t), second
+
     def rates(self, t: float, state: Series, speed: float | None) -> Series:
         """The rate of a state at a time [s]; speed: initial impact velocity [m/s], None in free flight."""
         at, rate = state[:12].reshape(4, 3), state[12:]
@@ -171,7 +181,7 @@ class PeerEquations:
             force += fx * jacobian[-1, 0] + fy * jacobian[-1, 1]
             force[3 * JOURNAL_LINK + 2] += moment
 
-        extension, lengthening, second = self.support.motion(t)
+        extension, lengthening, second = self.motion(t)
         places = self.start[self.heads] + moved[self.heads] - self.feet
         length = np.hypot(*places.T)
         unit, along = places / length[:, None], velocity[self.heads]

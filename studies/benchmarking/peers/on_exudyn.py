@@ -130,9 +130,9 @@ def _add_linkage(mbs: Any, support: PlainSupport, contact: _StockContact) -> lis
         mbs.AddObject(ObjectJointRevolute2D(markerNumbers=ends))
     columns = []
     for column in support.columns:
-        ends = markers(-1, COLUMN_LINK, column.foot, column.head)
-        item = ObjectConnectorDistance(markerNumbers=ends, distance=column.length)
-        columns.append((mbs.AddObject(item), column.length))
+        ends = markers(-1, COLUMN_LINK, column.foot_point, column.head_point)
+        item = ObjectConnectorDistance(markerNumbers=ends, distance=column.start_length)
+        columns.append((mbs.AddObject(item), column.start_length))
     mbs.AddObject(
         ObjectConnectorRigidBodySpringDamper(
             markerNumbers=markers(-1, JOURNAL_LINK, support.bore, support.bore),

@@ -1,4 +1,4 @@
-"""The support as programs of others take it, and what their runs give: times and forces.
+"""The support as programs of others take it: the machine's data, and the law of its contact in plain floats.
 
 Four links as a tree, two driven columns, a pin in its bore. The tree begins at the front base pin: front
 link, shield, canopy on the shield, rear link on the shield. Its last link ends in the journal, whose bore is
@@ -7,9 +7,9 @@ Nothing here comes from the package but the machine's data and the law's constan
 """
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -18,7 +18,7 @@ import numpy.typing as npt
 from support_exudyn.formulations.engine_settings import quiet_engine
 from support_exudyn.machines.four_column_support import HydraulicSupport
 from support_exudyn.model.drives.drive import CubicStep, Held
-from support_exudyn.model.linkage import GROUND
+from support_exudyn.model.linkage import GROUND, LinearActuator
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.single_run import paused_collector
 from user_forces.contact import JournalContact
@@ -35,10 +35,9 @@ TREE = (
     ("rear_link", "shield", "rear_shield"),
 )
 COLUMN_LINK, JOURNAL_LINK = 2, 3  # places in the tree of the canopy and of the rear link
-# force on the journal from its place, velocity, spin in the bore and the initial impact velocity:
-# two components [N], moment about its centre [N m]
 Series = npt.NDArray[np.float64]
-Pair = Sequence[float] | npt.NDArray[np.float64]  # components along x and y
+# force on the journal from its place, velocity, spin in the bore and initial impact velocity (0: not known):
+# two components [N], moment about its centre [N m]
 JournalForce = Callable[[float, float, float, float, float, float], tuple[float, float, float]]
 
 
@@ -48,7 +47,6 @@ class Link(NamedTuple):
     Mass in kg, inertia about the centre of mass in kg m^2.
     """
 
-    name: str
     parent: int
     pin: Vector2
     centre: Vector2
@@ -56,82 +54,29 @@ class Link(NamedTuple):
     inertia: float
 
 
-class PeerColumn(NamedTuple):
-    """A driven column: its foot on the ground, its head on the canopy and its length at the start [m]."""
+class PeerRun(NamedTuple):
+    """Time [s] and magnitude of the force in the clearance pin [N] at the ends of all steps."""
 
-    name: str
-    foot: Vector2
-    head: Vector2
-    length: float
+    time: Series
+    force: Series
 
 
 @dataclass(frozen=True)
 class PlainSupport:
     """The machine in its start posture; x forward, y up.
 
-    links: in the order of TREE. bore: centre of the bore and of the journal [m]. force: of the bore on the
-    journal. clearance: radial [m]. drive: of both columns. gravity: [m/s^2].
+    links: in the order of TREE. columns: from the ground to the canopy. bore: centre of the bore and of the
+    journal [m]. clearance: radial [m]. force: of the bore on the journal. drive: of both columns. gravity:
+    [m/s^2].
     """
 
     links: tuple[Link, ...]
-    columns: tuple[PeerColumn, ...]
+    columns: tuple[LinearActuator, ...]
     bore: Vector2
     clearance: float
     force: JournalForce
     drive: CubicStep | Held
     gravity: Vector2
-
-    def motion(self, t: float) -> tuple[float, float, float]:
-        """Extension [m] of both columns, its rate [m/s] and second derivative [m/s^2] at a time [s]."""
-        if isinstance(self.drive, Held) or t <= self.drive.start:
-            return 0.0, 0.0, 0.0
-        stroke, width = self.drive.stroke, self.drive.end - self.drive.start
-        x = (t - self.drive.start) / width
-        if x >= 1.0:
-            return stroke, 0.0, 0.0
-        rates = 6.0 * x * (1.0 - x) / width, (6.0 - 12.0 * x) / width**2
-        return stroke * x * x * (3.0 - 2.0 * x), stroke * rates[0], stroke * rates[1]
-
-
-def plain_support(scenario: Scenario) -> PlainSupport:
-    """The data of a scenario.
-
-    Arguments:
-        scenario: HydraulicSupport in the plane, rigid columns, rear-link pin with clearance and its bore in
-            the base, LankaraniNikravesh with exponent 1.5, no friction or Ambrosio's, start "concentric".
-
-    Raises InputError if the scenario is not covered.
-    """
-    machine = scenario.machine
-    if not isinstance(machine, HydraulicSupport) or scenario.dimensions != 2:
-        raise InputError("machine: allowed here: HydraulicSupport, in the plane")
-    drive = scenario.drive
-    if not isinstance(drive, (CubicStep, Held)):
-        raise InputError("drive: allowed here: CubicStep, Held")
-    others = (scenario.actuators, scenario.drives, scenario.own_bodies, scenario.friction_pins)
-    if any(others) or scenario.acting_loads or scenario.blocks or scenario.start != "concentric":
-        raise InputError("allowed here: rigid columns, one drive, no loads and start = 'concentric'")
-    if tuple(scenario.clearance_pins) != (PIN,) or scenario.clearance_pins[PIN].bore != "first":
-        raise InputError(f"allowed here: one clearance pin, {PIN}, with its bore in the base")
-    linkage, contact = machine.linkage(), scenario.clearance_pins[PIN].contact
-    places = {name: n for n, (name, _, _) in enumerate(TREE)}
-    links = []
-    for name, parent, pin in TREE:
-        body, point = linkage.bodies[name], linkage.pins[pin].first_point
-        links.append(Link(name, places.get(parent, -1), point, body.centre, body.mass, body.inertia))
-    columns = [
-        PeerColumn(name, one.foot_point, one.head_point, one.start_length)
-        for name, one in linkage.actuators.items()
-    ]
-    return PlainSupport(
-        links=tuple(links),
-        columns=tuple(columns),
-        bore=linkage.pins[PIN].first_point,
-        clearance=contact.bearing.clearance,
-        force=journal_force(contact),
-        drive=drive,
-        gravity=(scenario.gravity[0], scenario.gravity[1]),
-    )
 
 
 def journal_force(contact: JournalContact) -> JournalForce:
@@ -141,14 +86,13 @@ def journal_force(contact: JournalContact) -> JournalForce:
     impact velocity, not less than the law's rest velocity. Friction by Ambrosio acts at the contact point.
     Raises InputError for other laws.
     """
-    law = contact.normal
+    law, friction = contact.normal, contact.friction
     if not isinstance(law, LankaraniNikravesh) or law.exponent != 1.5:
         raise InputError(f"normal = {law}: allowed here: LankaraniNikravesh with exponent 1.5")
-    stiffness, factor, floor = law.stiffness, law.damping_factor, law.rest_velocity
-    clearance, bore_radius = contact.bearing.clearance, contact.bearing.bore_radius
-    friction = contact.friction
     if not isinstance(friction, (Ambrosio, Frictionless)):
         raise InputError(f"friction = {friction}: allowed here: Ambrosio, Frictionless")
+    stiffness, factor, floor = law.stiffness, law.damping_factor, law.rest_velocity
+    clearance, bore_radius = contact.bearing.clearance, contact.bearing.bore_radius
     coefficient, static, ramp = 0.0, 0.0, 1.0
     if isinstance(friction, Ambrosio):
         coefficient, static = friction.sliding_coefficient, friction.static_speed
@@ -163,9 +107,8 @@ def journal_force(contact: JournalContact) -> JournalForce:
             return 0.0, 0.0, 0.0
         nx, ny = x / eccentricity, y / eccentricity
         rate = nx * vx + ny * vy
-        normal = max(
-            0.0, stiffness * depth * math.sqrt(depth) * (1.0 + factor * rate / max(speed or rate, floor))
-        )
+        damping = 1.0 + factor * rate / max(speed or rate, floor)
+        normal = max(0.0, stiffness * depth * math.sqrt(depth) * damping)
         if not coefficient:
             return -normal * nx, -normal * ny, 0.0
         arm = bore_radius + 0.5 * depth - eccentricity
@@ -176,28 +119,41 @@ def journal_force(contact: JournalContact) -> JournalForce:
     return force
 
 
-# --- runs ---
+def plain_support(scenario: Scenario) -> PlainSupport:
+    """The data of a scenario.
 
+    Arguments:
+        scenario: HydraulicSupport in the plane, rigid columns, rear-link pin with clearance and its bore in
+            the base, LankaraniNikravesh with exponent 1.5, no friction or Ambrosio's, start "concentric".
 
-class PeerRun(NamedTuple):
-    """Time [s] and magnitude of the force in the clearance pin [N] at the ends of all steps."""
-
-    time: Series
-    force: Series
-
-
-def _speed_at_zero(first: float, last: float, first_slope: float, last_slope: float) -> float:
-    """The slope, where it passes zero between 0 and 1, of the cubic with these values and slopes at 0 and 1."""
-    a, b, c = last - first, first_slope, last_slope
-    cubic = np.array([b + c - 2.0 * a, 3.0 * a - 2.0 * b - c, b, first])
-    low, high = 0.0, 1.0
-    for _ in range(60):
-        x = 0.5 * (low + high)
-        if (np.polyval(cubic, x) > 0.0) == (last > 0.0):
-            high = x
-        else:
-            low = x
-    return float(np.polyval(np.polyder(cubic), high))
+    Raises InputError if the scenario is not covered.
+    """
+    machine, drive = scenario.machine, scenario.drive
+    if not isinstance(machine, HydraulicSupport) or scenario.dimensions != 2:
+        raise InputError("machine: allowed here: HydraulicSupport, in the plane")
+    if not isinstance(drive, (CubicStep, Held)):
+        raise InputError("drive: allowed here: CubicStep, Held")
+    others = (scenario.actuators, scenario.drives, scenario.own_bodies, scenario.friction_pins)
+    if any(others) or scenario.acting_loads or scenario.blocks or scenario.start != "concentric":
+        raise InputError("allowed here: rigid columns, one drive, no loads and start = 'concentric'")
+    if tuple(scenario.clearance_pins) != (PIN,) or scenario.clearance_pins[PIN].bore != "first":
+        raise InputError(f"allowed here: one clearance pin, {PIN}, with its bore in the base")
+    contact = scenario.clearance_pins[PIN].contact
+    linkage = machine.linkage()
+    places = {name: n for n, (name, _, _) in enumerate(TREE)}
+    links = []
+    for name, parent, pin in TREE:
+        body, point = linkage.bodies[name], linkage.pins[pin].first_point
+        links.append(Link(places.get(parent, -1), point, body.centre, body.mass, body.inertia))
+    return PlainSupport(
+        links=tuple(links),
+        columns=tuple(linkage.actuators.values()),
+        bore=linkage.pins[PIN].first_point,
+        clearance=contact.bearing.clearance,
+        force=journal_force(contact),
+        drive=drive,
+        gravity=(scenario.gravity[0], scenario.gravity[1]),
+    )
 
 
 @contextmanager
@@ -205,40 +161,3 @@ def undisturbed() -> Iterator[None]:
     """The engine is silent and garbage is not collected: neither is part of what is measured."""
     with quiet_engine(), paused_collector():
         yield
-
-
-@dataclass
-class JournalLog:
-    """Records of the journal at the ends of a program's steps.
-
-    steps: time [s], magnitude of the force [N], depth [m] and its rate [m/s], of each. speed: the initial
-    impact velocity, 0 in free flight [m/s].
-    """
-
-    support: PlainSupport
-    steps: list[tuple[float, float, float, float]] = field(default_factory=list)
-    speed: float = 0.0
-
-    def note(self, t: float, place: Pair, velocity: Pair, spin: float) -> None:
-        """Note the end of a step: place [m], velocity [m/s] and spin [rad/s] of the journal in its bore.
-
-        In the step in which the surfaces met, the initial impact velocity is that at zero depth of the cubic
-        through both ends of the step.
-        """
-        (x, y), (vx, vy) = place, velocity
-        eccentricity = math.hypot(x, y)
-        depth, rate = eccentricity - self.support.clearance, (x * vx + y * vy) / (eccentricity or 1.0)
-        if depth <= 0.0:
-            self.speed = 0.0
-        elif not self.speed:
-            before, _, last_depth, last_rate = self.steps[-1]
-            step = t - before
-            slope = _speed_at_zero(last_depth, depth, step * last_rate, step * rate)
-            self.speed = max(slope / step, 0.0)
-        fx, fy, _ = self.support.force(x, y, vx, vy, spin, self.speed)
-        self.steps.append((t, math.hypot(fx, fy), depth, rate))
-
-    def run(self) -> PeerRun:
-        """Time and force at the ends of all steps."""
-        time, force, *_ = np.array(self.steps).T
-        return PeerRun(time, force)
