@@ -15,8 +15,6 @@ The general force acts at the journal's centre and its reaction at the same plac
 moment of the friction about the journal's centre that is a force at the point of contact on both.
 """
 
-from typing import NamedTuple
-
 from studies.adams.statements import Statements, functions, number
 from support_exudyn.model.pins import ClearancePin
 from user_forces.friction.laws import Ambrosio
@@ -24,15 +22,6 @@ from user_forces.normal.power_laws import LankaraniNikravesh
 
 FOLLOWING = 1e-5  # T [s]
 SMALLEST = 1e-30  # [m], so that nothing is divided by zero
-
-
-class PinMarkers(NamedTuple):
-    """Markers of a clearance pin: of journal and bore, floating on the bore's body, and the ground's axes."""
-
-    journal: int
-    bore: int
-    floating: int
-    axes: int
 
 
 # variables of a pin in their order; braces stand for earlier ones, for markers and for numbers
@@ -63,10 +52,13 @@ FORCES = {"force_x": "-{normal}*{nx}-{friction}*{ny}", "force_y": "-{normal}*{ny
 FOLLOWS = "IF({depth}:({rate}-{memory})/{following},0,0)"
 
 
-def write_clearance(out: Statements, name: str, pin: ClearancePin, at: PinMarkers) -> dict[str, str]:
-    """Write variables, memory and force of a clearance pin.
+def write_clearance(
+    out: Statements, name: str, pin: ClearancePin, journal: int, bore: int, floating: int, axes: int
+) -> None:
+    """Write variables, memory and force of a clearance pin, and ask for its channels.
 
-    Returns its channels, without the pin's name, each with the expression that is its value.
+    journal, bore, floating, axes: markers of journal and bore, one that floats on the bore's body, and the
+    ground's axes.
     """
     bearing, normal, friction = pin.contact.bearing, pin.contact.normal, pin.contact.friction
     assert isinstance(normal, LankaraniNikravesh)
@@ -85,7 +77,7 @@ def write_clearance(out: Statements, name: str, pin: ClearancePin, at: PinMarker
             "sliding_coefficient": friction.sliding_coefficient,
         }
     names = {key: number(value) for key, value in values.items()}
-    names |= {"pair": f"{at.journal},{at.bore},{at.axes}", "journal": str(at.journal), "bore": str(at.bore)}
+    names |= {"pair": f"{journal},{bore},{axes}", "journal": str(journal), "bore": str(bore)}
     names["memory"] = f"DIF({out.following('DIFF')})"
     for what, formula in (CONTACT | rubbing | FORCES).items():
         variable = out.add("VARIABLE", f"{name}_{what}", f"FUNCTION = {formula.format(**names)}")
@@ -94,15 +86,16 @@ def write_clearance(out: Statements, name: str, pin: ClearancePin, at: PinMarker
             out.add("DIFF", f"{name}_impact_velocity", "IC = 0", f"FUNCTION = {FOLLOWS.format(**names)}")
     moment = f"{names['journal_arm']}*{names['friction']}"
     on_journal = functions(FX=names["force_x"], FY=names["force_y"], FZ="0", TX="0", TY="0", TZ=moment)
-    places = (f"I = {at.journal}", f"JFLOAT = {at.floating}", f"RM = {at.axes}")
+    places = (f"I = {journal}", f"JFLOAT = {floating}", f"RM = {axes}")
     out.add("GFORCE", name, *places, *on_journal)
     sign = "" if pin.bore == "first" else "-"  # of the first body on the second
-    return {
-        "force_x": f"{sign}{names['force_x']}",
-        "force_y": f"{sign}{names['force_y']}",
-        "normal_force": names["normal"],
-        "friction_force": names["friction"],
-        "depth": names["depth"],
-        "eccentricity_x": names["x"],
-        "eccentricity_y": names["y"],
-    }
+    out.ask(
+        f"pin.{name}",
+        force_x=f"{sign}{names['force_x']}",
+        force_y=f"{sign}{names['force_y']}",
+        normal_force=names["normal"],
+        friction_force=names["friction"],
+        depth=names["depth"],
+        eccentricity_x=names["x"],
+        eccentricity_y=names["y"],
+    )

@@ -14,8 +14,8 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
-from studies.adams.clearance import PinMarkers, write_clearance
-from studies.adams.statements import Requests, Statements, number, numbers
+from studies.adams.clearance import write_clearance
+from studies.adams.statements import Statements, number, numbers
 from support_exudyn import CubicStep, Scenario
 from support_exudyn.model.actuators import RigidActuator
 from support_exudyn.model.drives.drive import Drive, Held
@@ -67,7 +67,7 @@ class _Writing:
 
     def __init__(self, scenario: Scenario) -> None:
         self.scenario, self.linkage = scenario, scenario.linkage
-        self.out, self.requests = Statements(), Requests()
+        self.out = Statements()
         self.parts: dict[str, int] = {}  # by body
         self.centres: dict[str, Vector2] = {GROUND: (0.0, 0.0)}
         self.axes = 0  # the marker of the ground's axes
@@ -89,11 +89,9 @@ class _Writing:
             self.clearance(name, pin, self.linkage.pins[name])
         for name, point in self.linkage.points.items():
             at = self.marker(point.body, point.point, name)
-            self.requests.ask(
-                name, x=f"DX({at},{self.axes},{self.axes})", y=f"DY({at},{self.axes},{self.axes})"
-            )
+            self.out.ask(name, x=f"DX({at},{self.axes},{self.axes})", y=f"DY({at},{self.axes},{self.axes})")
         out.heading("RESULTS")
-        columns = self.requests.write(out)
+        columns = out.requests()
         self.analysis()
         head = f"ADAMS/View model name: {title}\n{HEADER}"
         return AdamsDataset(head + "\n".join(out.lines) + "\nEND\n", columns)
@@ -123,7 +121,7 @@ class _Writing:
     def body(self, name: str, body: Body) -> None:
         at = self.part(name, body.centre, body.mass, body.inertia)
         pair = f"{at},{self.axes}"
-        self.requests.ask(
+        self.out.ask(
             name,
             x=f"DX({pair},{self.axes})",
             y=f"DY({pair},{self.axes})",
@@ -160,7 +158,7 @@ class _Writing:
         second = self.marker(pin.second, pin.second_point, f"{name}_i")
         joint = self.out.add(kind, name, form, f"I = {second}", f"J = {first}")
         force = {f"force_{axis}": f"{kind}({joint},0,{n},0)" for n, axis in ((2, "x"), (3, "y"))}
-        self.requests.ask(f"pin.{name}", **force)
+        self.out.ask(f"pin.{name}", **force)
 
     def column(self, name: str, actuator: LinearActuator, drive: Drive) -> None:
         foot, head = actuator.foot_point, actuator.head_point
@@ -181,18 +179,20 @@ class _Writing:
         motion = self.out.add("MOTION", name, f"JOINT = {joint}", f"FUNCTION = {extension}")
         heads = self.pair(f"{name}_head", (actuator.head, head), (rod, head))
         self.out.add("JPRIM", f"{name}_head", "INLINE", f"I = {heads[0]}", f"J = {heads[1]}")
-        self.requests.ask(name, length=f"DM({heads[0]},{feet[1]})", force=f"MOTION({motion},0,4,{slides[0]})")
+        self.out.ask(name, length=f"DM({heads[0]},{feet[1]})", force=f"MOTION({motion},0,4,{slides[0]})")
 
     def clearance(self, name: str, pin: ClearancePin, place: PinPlace) -> None:
         ends = [(place.first, place.first_point), (place.second, place.second_point)]
         bore, journal = ends if pin.bore == "first" else ends[::-1]
-        markers = PinMarkers(
+        write_clearance(
+            self.out,
+            name,
+            pin,
             journal=self.marker(*journal, f"{name}_journal"),
             bore=self.marker(*bore, f"{name}_bore"),
             floating=self.out.add("MARKER", f"{name}_floating", f"PART = {self.parts[bore[0]]}", "FLOATING"),
             axes=self.axes,
         )
-        self.requests.ask(f"pin.{name}", **write_clearance(self.out, name, pin, markers))
 
     def analysis(self) -> None:
         """Weight, integrator and output."""

@@ -24,6 +24,9 @@ from user_forces.values.value import InputError
 
 LONGEST = 79  # characters of a line
 NAMED_BY = 30  # column in which names stand
+FUNCTIONS = ("F2", "F3", "F4", "F6", "F7", "F8")  # of a request; F1 and F5 are magnitudes
+PLACES = 8
+LENGTHS = ("x", "y", "length", "depth", "eccentricity_x", "eccentricity_y")
 
 
 class Statements:
@@ -35,6 +38,7 @@ class Statements:
     def __init__(self) -> None:
         self.lines: list[str] = []
         self._count: Counter[str] = Counter()
+        self._asked: dict[str, dict[str, str]] = {}
 
     def heading(self, text: str) -> None:
         """Begin a group of statements."""
@@ -58,6 +62,25 @@ class Statements:
     def plain(self, kind: str, *arguments: str) -> None:
         """Write a statement that has no number."""
         self._write([f"{kind}/"], arguments)
+
+    def ask(self, stem: str, **expressions: str) -> None:
+        """Ask for channels STEM.NAME, each with its expression; `requests` writes them."""
+        self._asked.setdefault(stem, {}).update(expressions)
+
+    def requests(self) -> dict[str, str]:
+        """Write the requests, of up to six expressions; returns each channel's column in the results."""
+        columns: dict[str, str] = {}
+        for stem, expressions in self._asked.items():
+            names = list(expressions)
+            for count, start in enumerate(range(0, len(names), len(FUNCTIONS))):
+                at = dict(zip(FUNCTIONS, names[start : start + len(FUNCTIONS)], strict=False))
+                name = result_name(stem) + (f"_{count + 1}" if count else "")
+                places = [at.get(f"F{n}", "") for n in range(1, PLACES + 1)]
+                lists = (*_quoted("CNAMES", places), *_quoted("CUNITS", map(_unit, places)))
+                formulas = functions(**{place: expressions[one] for place, one in at.items()})
+                self.add("REQUEST", name, *lists, f"RESULTS_NAME = {name}", *formulas)
+                columns |= {f"{stem}.{one}": f"{name}.{one}" for one in at.values()}
+        return columns
 
     def _write(self, head: Iterable[str], arguments: Iterable[str]) -> None:
         lines = [*head, *(f", {argument}" for argument in arguments)]
@@ -90,38 +113,6 @@ def functions(**expressions: str) -> list[str]:
 def result_name(name: str) -> str:
     """A name of results: letters, digits and underscores."""
     return "".join(letter if letter.isalnum() and letter.isascii() else "_" for letter in name)
-
-
-FUNCTIONS = ("F2", "F3", "F4", "F6", "F7", "F8")  # F1 and F5 are magnitudes
-PLACES = 8
-LENGTHS = ("x", "y", "length", "depth", "eccentricity_x", "eccentricity_y")
-
-
-class Requests:
-    """Requests of a dataset: groups of up to six expressions, by the names of channels."""
-
-    def __init__(self) -> None:
-        self._asked: dict[str, dict[str, str]] = {}
-
-    def ask(self, stem: str, **expressions: str) -> None:
-        """Ask for channels STEM.NAME, each with its expression."""
-        self._asked.setdefault(stem, {}).update(expressions)
-
-    def write(self, out: Statements) -> dict[str, str]:
-        """Write all; returns the column of each channel in the results."""
-        columns: dict[str, str] = {}
-        for stem, expressions in self._asked.items():
-            names = list(expressions)
-            for count, start in enumerate(range(0, len(names), len(FUNCTIONS))):
-                some = names[start : start + len(FUNCTIONS)]
-                name = result_name(stem) + (f"_{count + 1}" if count else "")
-                at = dict(zip(FUNCTIONS, some, strict=False))
-                places = [at.get(f"F{n}", "") for n in range(1, PLACES + 1)]
-                formulas = functions(**{place: expressions[one] for place, one in at.items()})
-                lists = (*_quoted("CNAMES", places), *_quoted("CUNITS", map(_unit, places)))
-                out.add("REQUEST", name, *lists, f"RESULTS_NAME = {name}", *formulas)
-                columns |= {f"{stem}.{one}": f"{name}.{one}" for one in some}
-        return columns
 
 
 def _unit(name: str) -> str:

@@ -15,7 +15,6 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter
 
@@ -115,17 +114,10 @@ def _engine_once(scenario: Scenario, steps: tuple[float, int]) -> float:
     return _largest(replace(scenario, formulation=ENGINE, step=steps[0], solver=solver))
 
 
-def _tolerances(*tolerances: float) -> Mapping[str, float]:
-    return {f"tolerance {x:.0e}": x for x in tolerances}
-
-
-def _steps(*steps: float) -> Mapping[str, float]:
-    return {f"step {1e3 * step:g} ms": step for step in steps}
-
-
 OURS_COMPILED, OURS_ENGINE = "support-exudyn, compiled", "support-exudyn on Exudyn"
 ONCE = ", single run"
 STOCK = "Exudyn, stock recipe"
+_TOLERANCES = {f"tolerance {x:.0e}": x for x in (1e-3, 1e-4, 1e-5, 1e-6)}
 _ACCURACIES = {preset: preset for preset in PRESETS}
 _IMPACTS = {f"{n} steps an impact": (step, n) for step, n in ((1e-3, 64), (1e-3, 256), (5e-4, 512))}
 _BLUE, _LIGHT_BLUE = ("#0072B2", "o"), ("#56B4E9", "o")  # of this program
@@ -134,17 +126,22 @@ PROGRAMS: Mapping[str, PeerProgram] = {
     for program in (
         PeerProgram(OURS_COMPILED, _ACCURACIES, _to_accuracy(COMPILED), _BLUE),
         PeerProgram(OURS_ENGINE, _ACCURACIES, _to_accuracy(ENGINE), _LIGHT_BLUE, slow=["reference"]),
-        PeerProgram(OURS_COMPILED + ONCE, _tolerances(1e-3, 1e-4, 1e-5, 1e-6), _compiled_once, _BLUE),
+        PeerProgram(
+            OURS_COMPILED + ONCE,
+            {f"tolerance {x:.0e}": x for x in (1e-3, 1e-4, 1e-5, 1e-6)},
+            _compiled_once,
+            _BLUE,
+        ),
         PeerProgram(OURS_ENGINE + ONCE, _IMPACTS, _engine_once, _LIGHT_BLUE),
         PeerProgram(
             STOCK,
-            _steps(3e-4, 2e-4, 1e-4, 5e-5),
+            {f"step {1e3 * step:g} ms": step for step in (3e-4, 2e-4, 1e-4, 5e-5)},
             lambda scenario, step: run_stock(scenario, step).force.max(),
             ("#000000", "s"),
         ),
         PeerProgram(
             "scipy's LSODA",
-            _tolerances(1e-4, 1e-5, 1e-6, 1e-7),
+            {f"tolerance {x:.0e}": x for x in (1e-4, 1e-5, 1e-6, 1e-7)},
             lambda scenario, tolerance: run_lsoda(scenario, tolerance).force.max(),
             ("#009E73", "v"),
         ),
@@ -200,10 +197,11 @@ def cheapest(points: Sequence[TradePoint], program: str, error: float = GOOD) ->
 CAPTION = (
     f"Relative error of the largest force in the rear-link pin over processor time ({WORK}), against the "
     "compiled formulation at a tolerance of 1e-12. Where a finer setting has a larger error, that is drawn. "
-    "Filled circles: runs to an accuracy, at least three each, that report their error; all others are single "
-    "runs. Exudyn, stock recipe: generalised alpha at fixed steps, the contact as a Python user function, no "
-    "impact located. support-exudyn on Exudyn: the same engine and integrator with located impacts; compiled: "
-    "an embedded Runge-Kutta 5(4) method with error control. LSODA: equations of motion by hand."
+    "Filled circles: runs to an accuracy (draft, standard, reference), at least three each, that report their"
+    " error; all others are single runs. Exudyn, stock recipe: generalised alpha at fixed steps, the contact "
+    "as a Python user function, no impact located. support-exudyn on Exudyn: the same engine and integrator "
+    "with located impacts; compiled: an embedded Runge-Kutta 5(4) method with error control. LSODA: equations"
+    " of motion by hand."
 )
 SMALLEST = 1e-10  # errors below are those of the reference
 
@@ -214,8 +212,20 @@ def figure(points: Sequence[TradePoint]) -> Figure:
     axes = drawing.subplots()
     for program in PROGRAMS.values():
         mine = [point for point in points if point.program == program.name]
-        if mine:
-            _line(axes, program, mine)
+        (colour, marker), reports = program.look, program.name in (OURS_COMPILED, OURS_ENGINE)
+        axes.plot(
+            [point.seconds for point in mine],
+            [max(error, SMALLEST) for error in lasting_errors(mine)],
+            color=colour,
+            marker=marker,
+            ms=7.0 if reports else 5.0,
+            mfc=colour if reports else "white",
+            lw=1.8 if reports else 1.0,
+            ls="--" if program.name.endswith(ONCE) else "-",
+            label=f"{program.name},\nto an accuracy"
+            if reports
+            else program.name.replace(ONCE, ",\nsingle run"),
+        )
     axes.set(
         xscale="log",
         yscale="log",
@@ -229,37 +239,6 @@ def figure(points: Sequence[TradePoint]) -> Figure:
     axes.grid(which="major", lw=0.4, color="#DDDDDD")
     drawing.legend(loc="outside right upper", fontsize=8, frameon=False)
     return drawing
-
-
-def _line(axes: Axes, program: PeerProgram, points: Sequence[TradePoint]) -> None:
-    """Draw a program's settings; settings of runs to an accuracy have their names."""
-    name, (colour, marker) = program.name, program.look
-    reports = name in (OURS_COMPILED, OURS_ENGINE)
-    y = [max(error, SMALLEST) for error in lasting_errors(points)]
-    axes.plot(
-        [point.seconds for point in points],
-        y,
-        color=colour,
-        marker=marker,
-        ms=7.0 if reports else 5.0,
-        mfc=colour if reports else "white",
-        lw=1.8 if reports else 1.0,
-        ls="--" if name.endswith(ONCE) else "-",
-        label=f"{name},\nto an accuracy" if reports else name.replace(ONCE, f"{ONCE[:1]}\nsingle run"),
-    )
-    for point, at in zip(points if reports else (), y, strict=False):
-        # at the edge of the axes, and where two points can be next to each other
-        is_left = (point.setting, name) in ((PRESETS[-1], OURS_ENGINE), (PRESETS[1], OURS_COMPILED))
-        axes.annotate(
-            f'"{point.setting}"',
-            (point.seconds, at),
-            (-7, -2) if is_left else (7, -2),
-            textcoords="offset points",
-            ha="right" if is_left else "left",
-            fontsize=7.5,
-            color=colour,
-            bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.5},
-        )
 
 
 def table(points: Sequence[TradePoint]) -> Sheet:

@@ -12,7 +12,7 @@ from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 from studies.common.numbers import Found, Number, by_case
 from studies.common.panels import error_bars, finish, fit_height, grid
 from studies.common.rise import Watched, between
-from studies.contact_laws.cases import ASKED, KEY, PIN, REST
+from studies.contact_laws.cases import ASKED, PIN, REST
 from studies.contact_laws.catalogue import POWER_LAWS, title
 from support_exudyn import Result
 from support_exudyn.postprocessing.figures import style
@@ -20,53 +20,32 @@ from support_exudyn.postprocessing.figures import style
 Series = npt.NDArray[np.float64]
 
 
-SHOWN = {"exact": 0, "lankarani_nikravesh": 1, "hunt_crossley": 2, "flores": 3}  # named in the answer's figure
+SHOWN = {  # laws that are named in the answer's figure: colour and dashes
+    "exact": (style.WITH_CLEARANCE, "-"),
+    "lankarani_nikravesh": (style.SMOOTH, "--"),
+    "hunt_crossley": (style.THIRD, "-."),
+    "flores": ("black", ":"),
+}
 
 
 def answer_figure(found: Found) -> Figure:
-    """What laws deliver over what they are asked for (a), and the pin force under laws of the key table (b)."""
-    drawing, ((delivered, force),) = grid(72, 1, 2, width_ratios=(1.0, 1.15))
+    """What laws deliver over what they are asked for: closed forms, and dots of free impacts."""
+    drawing = Figure(figsize=style.size(110, 90))
+    axes = drawing.subplots()
     fine = np.linspace(0.01, 1.0, 200)
-    colours = (style.WITH_CLEARANCE, style.SMOOTH, style.THIRD, "black")
     for name, law in POWER_LAWS.items():
         curve = [law(stiffness=1.0, restitution=float(e)).delivered_restitution for e in fine]
-        place = SHOWN.get(name)
-        look = {"color": "#cccccc", "lw": 0.8, "zorder": 1.0}
-        if place is not None:
-            look = {
-                "color": colours[place],
-                "label": title(name),
-                "lw": 1.3,
-                "ls": ("-", "--", "-.", ":")[place],
-            }
-            points = {e: found.get(("delivered_restitution", f"{name} e={e:g}")) for e in ASKED}
-            shown = [(e, number.value) for e, number in points.items() if number]
-            delivered.plot(*zip(*shown, strict=True), "o", ms=2.6, color=colours[place])
-        delivered.plot(fine, curve, **look)
-    delivered.set(xlim=(0, 1), ylim=(0, 1), xlabel="restitution asked for [1]", ylabel="delivered [1]")
-    drawing.legend(*delivered.get_legend_handles_labels(), loc="outside lower left", ncols=2, fontsize=7)
-    rows = np.arange(len(KEY))
-    for name, marker, colour, label in (
-        ("largest_pin_force_any_step", "D", style.SMOOTH, "largest"),
-        ("mean_pin_force", "o", "black", "mean"),
-        ("std_pin_force", "s", style.WITH_CLEARANCE, "standard deviation"),
-    ):
-        numbers = [found[name, case] for case in KEY]
-        values, errors = (
-            [1e-3 * one for one in of]
-            for of in zip(*((n.value, n.numerical_error) for n in numbers), strict=True)
-        )
-        below = [min(error, 0.9 * value) for value, error in zip(values, errors, strict=True)]
-        force.errorbar(
-            values, rows, xerr=(below, errors), fmt=marker, ms=3.5, color=colour, capsize=2, lw=0.8, label=label
-        )
-    force.set(xscale="log", xlabel="pin force [kN]")
-    force.set_yticks(rows, [row_title(case).replace(", ", ",\n", 1) for case in KEY], fontsize=7)
-    force.invert_yaxis()
-    force.grid(axis="y", lw=0.3)
-    _plain_log(force)
-    drawing.legend(*force.get_legend_handles_labels(), loc="outside lower right", ncols=3, fontsize=7)
-    return finish(drawing, [delivered, force])
+        if name not in SHOWN:
+            axes.plot(fine, curve, color="#cccccc", lw=0.8, zorder=1.0)
+            continue
+        colour, dashes = SHOWN[name]
+        axes.plot(fine, curve, color=colour, ls=dashes, lw=1.3, label=title(name))
+        numbers = (found.get(("delivered_restitution", f"{name} e={e:g}")) for e in ASKED)
+        delivered = [number.value if number else np.nan for number in numbers]
+        axes.plot(ASKED, delivered, "o", ms=2.6, color=colour)
+    axes.set(xlim=(0, 1), ylim=(0, 1), xlabel="restitution asked for [1]", ylabel="delivered [1]")
+    axes.legend(fontsize=7)
+    return drawing
 
 
 def _plain_log(axes: Axes) -> None:

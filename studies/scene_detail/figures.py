@@ -23,8 +23,6 @@ from studies.scene_detail.measures import (
     times_as_long,
 )
 from studies.scene_detail.scenes import (
-    CLEARANCE_MM,
-    EQUAL,
     FULLEST,
     PLAINEST,
     REAR,
@@ -56,9 +54,7 @@ PANELS = {
 }
 MORE, LESS, OPEN = style.CONTACT, style.WITH_CLEARANCE, "#777777"
 PURPLE = "#CC79A7"
-DASHES = (0, (4, 2))
 SIDES = {"left": style.WITH_CLEARANCE, "right": style.SMOOTH}
-WIDTHS = {"left": 1.8, "right": 0.8}  # the thinner curve is drawn on top
 ROW_MM = 4.3  # height of an element's row
 
 
@@ -134,69 +130,32 @@ def _dot(axes: Axes, place: int, change: Change, smallest: float) -> None:
 
 
 def unequal_figure(runs: Mapping[str, Result]) -> Figure:
-    """Turns, indentation, column forces and moment with columns driven apart, and paths of the journal."""
-    drawing, panels = grid(125, 2, 3, width_mm=180)
-    turns, depths, forces, moments, *paths = panels.flat
-    with_clearance, ideal, equal = (runs[name] for name in (UNEQUAL_FULLEST, UNEQUAL_IDEAL, EQUAL))
+    """Turns of the canopy, indentation, column forces and moment on the rear pin, with columns driven apart."""
+    drawing, panels = grid(110, 2, 2, width_mm=180)
+    turns, depths, forces, moments = panels.flat
+    with_clearance, ideal = runs[UNEQUAL_FULLEST], runs[UNEQUAL_IDEAL]
     time = with_clearance.time
+    of_forces = {f"front_column_{side}.force": (f"{side} column", colour) for side, colour in SIDES.items()}
     of_turns = {"canopy.roll": ("roll", style.THIRD), "canopy.yaw": ("yaw", PURPLE)}
-    of_forces = {f"front_column_{side}.force": (side, colour) for side, colour in SIDES.items()}
-    _courses(turns, with_clearance, ideal, of_turns, rise.DEGREES)
-    _courses(forces, with_clearance, ideal, of_forces, 1e-3)
+    for axes, channels, scale in ((turns, of_turns, rise.DEGREES), (forces, of_forces, 1e-3)):
+        for channel, (label, colour) in channels.items():
+            axes.plot(time, scale * with_clearance[channel], color=colour, label=label)
+            name = f"{label}, ideal pins"
+            axes.plot(ideal.time, scale * ideal[channel], color=colour, ls=(0, (4, 2)), label=name)
     for side, colour in SIDES.items():
         depth = MM * with_clearance[f"pin.{REAR}.{side}_depth"]
-        depths.plot(time, depth, color=colour, lw=WIDTHS[side], label=f"{side} edge")
+        depths.plot(time, depth, color=colour, label=f"{side} edge")
     # with ideal pins rigid bodies do not determine it
     moment = np.hypot(with_clearance[f"pin.{REAR}.moment_x"], with_clearance[f"pin.{REAR}.moment_y"])
     moments.plot(time, 1e-3 * moment, color=style.IDEAL, label="moment across the pin")
     labels = (
         "turn of the canopy [deg]", "indentation [mm]", "column force [kN]", "moment on the\nrear pin [kN m]",
     )  # fmt: skip
-    drive = with_clearance.scenario.drive
-    for axes, label in zip(panels.flat, labels, strict=False):
-        axes.set(xlabel="time [s]", ylabel=label)
-        axes.set_xlim(0.0, with_clearance.scenario.duration)
-        axes.set_xticks(np.linspace(drive.breaks[0], drive.breaks[-1], 5))
+    for axes, label in zip(panels.flat, labels, strict=True):
+        axes.set(xlabel="time [s]", ylabel=label, xlim=(0.0, with_clearance.scenario.duration))
         axes.margins(y=0.12)
-    for axes, run in zip(paths, (with_clearance, equal), strict=True):
-        _orbits(axes, run)
-    colours = {**SIDES, f"clearance {CLEARANCE_MM:g} mm, friction": style.IDEAL}
-    handles = [Line2D([], [], color=colour, label=label) for label, colour in colours.items()]
-    handles.append(Line2D([], [], color=style.IDEAL, ls=DASHES, label="ideal pins (a, c)"))
-    drawing.legend(handles=handles, loc="outside lower center", ncols=4)
+        axes.legend(fontsize=7)
     return finish(drawing, panels)
-
-
-def _courses(
-    axes: Axes,
-    with_clearance: Result,
-    ideal: Result,
-    channels: Mapping[str, tuple[str, str]],
-    scale: float,
-) -> None:
-    """Channels with clearance and with ideal pins; each named at its end, above the higher, below the lower."""
-    ends = {channel: scale * with_clearance[channel][-1] for channel in channels}
-    for channel, (label, colour) in channels.items():
-        name = channel.replace("_", " ").replace(".", ", ")
-        axes.plot(ideal.time, scale * ideal[channel], color=colour, ls=DASHES, label=f"{name}, ideal pins")
-        values = scale * with_clearance[channel]
-        axes.plot(with_clearance.time, values, color=colour, label=f"{name}, clearance")
-        above = ends[channel] == max(ends.values())
-        axes.annotate(
-            label, (with_clearance.time[-1], ends[channel]), (-4, 5 if above else -5), color=colour, ha="right",
-            textcoords="offset points", va="bottom" if above else "top", fontsize=8,
-        )  # fmt: skip
-
-
-def _orbits(axes: Axes, run: Result) -> None:
-    """Paths of the journal's ends; grey: where it makes contact."""
-    turn = np.linspace(0.0, 2.0 * np.pi, 200)
-    axes.plot(CLEARANCE_MM * np.cos(turn), CLEARANCE_MM * np.sin(turn), color="#999999", lw=0.8)
-    for side, colour in SIDES.items():
-        x, y = (MM * run[f"pin.{REAR}.{side}_eccentricity_{axis}"] for axis in "xy")
-        axes.plot(x, y, color=colour, lw=WIDTHS[side])
-        axes.plot(x[-1], y[-1], "o", color=colour, ms=5 if side == "left" else 3)
-    axes.set(aspect="equal", xlabel="forward [mm]", ylabel="up [mm]")
 
 
 # --- plane and space ---
