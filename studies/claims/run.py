@@ -37,8 +37,6 @@ MOST_MACHINES = 800  # of the first hypercube where all studies are run
 FEW = 5  # statements that may need more machines there
 SEED = 1
 
-# --- machines ---
-
 
 def drawn(number: int) -> list[dict[str, Choice]]:
     """The reference support, so many machines of the first hypercube, and half as many of the second."""
@@ -76,108 +74,6 @@ def draw(chosen: Options) -> tuple[list[MachineRow], list[Ruling]]:
         number += 2 * LOT
 
 
-# --- tables ---
-
-
-def tables(rulings: Sequence[Ruling], rows: Sequence[MachineRow]) -> dict[str, Sheet]:
-    """Verdicts, statements, thresholds, data that are drawn, and machines that could not be run, if any."""
-    numbered, apart = list(enumerate(rulings, 1)), independent(rulings)
-    verdicts = []
-    for kind in KINDS:
-        which = [n for n, ruling in numbered if ruling.kind == kind]
-        second = sum(ruling.verdict(ruling.second) == kind for ruling in rulings)
-        repeated = "" if kind == NOT_MEASURABLE else str(sum(ruling.kind == kind for ruling in apart))
-        verdicts.append((kind, str(len(which)), repeated, str(second), ", ".join(map(str, which))))
-
-    statements: list[tuple[str, ...]] = []
-    thresholds: list[tuple[str, ...]] = []
-    for n, ruling in numbered:
-        claim = ruling.claim
-        share = "closed form" if claim.stiffness_mm else str(ruling.first)
-        ours = f"{ruling.ours} (paper: {claim.paper})" if claim.paper else ruling.ours
-        error = f"{ruling.error:.0e}" if ruling.error else "0" if claim.is_measurable else ""
-        text = f"{claim.text} ({claim.where})"
-        statements.append((str(n), text, ruling.kind, share, str(ruling.second), ours, error, claim.reading))
-        if ruling.thresholds:
-            cells = (
-                f"{100.0 * at:g} %: {counted}, {counted.kind}"
-                if at < 0.5
-                else f"{at:g}: {counted}, {counted.kind}"
-                for at, counted in ruling.thresholds.items()
-            )
-            thresholds.append((str(n), claim.name, *cells, "yes" if ruling.hangs else "no"))
-
-    factors = []
-    for factor in FACTORS:
-        first_span, second_span = factor.span(second=False), factor.span(second=True)
-        reference = REFERENCE[factor.name]
-        shown = reference if isinstance(reference, str) else f"{reference:g}"
-        differing = "" if first_span == second_span else second_span
-        factors.append((factor.label, factor.meaning, first_span, differing, shown, factor.reason))
-
-    failures: list[tuple[str, ...]] = [
-        (str(n), f"{row.sample['scale']:.3g}", f"{row.sample['start_height']:.3g}", row.failure)
-        for n, row in enumerate(rows)
-        if row.failure is not None
-    ]
-    found: dict[str, tuple[tuple[str, ...], Sequence[tuple[str, ...]]]] = {
-        "verdicts": (
-            ("verdict", "statements", "without repetitions", "second hypercube", "no."),
-            verdicts,
-        ),
-        "table": (
-            (
-                "no.", "statement (where)", "verdict", "machines", "second hypercube",
-                "reference support (paper)", "error", "read as",
-            ),
-            statements,
-        ),
-        "thresholds": (("no.", "statement", "lower", "middle", "upper", "hangs on it"), thresholds),
-        "factors": (
-            ("datum", "meaning", "first hypercube", "second, if not alike", "reference support", "reason"),
-            factors,
-        ),
-        "failures": (("machine", "scale", "start height", "reason"), failures),
-    }  # fmt: skip
-    return {
-        name: text_table(header, rows_of, wide=True)
-        for name, (header, rows_of) in found.items()
-        if rows_of or name != "failures"
-    }
-
-
-# --- numbers and words ---
-
-
-def measure(rulings: Sequence[Ruling], rows: Sequence[MachineRow]) -> list[Number]:
-    """Verdicts, shares with their uncertainty, and the reference support's measures with numerical errors."""
-    first, second = hypercubes(rows)
-    left = sum(ruling.kind == NEEDS_MORE for ruling in rulings)  # which more machines may put elsewhere
-    counts = {
-        ("plausible_machines", "first hypercube"): (len(first), 0),
-        ("plausible_machines", "second hypercube"): (len(second), 0),
-        ("plausible_machines", "failed"): (sum(row.measures is None for row in rows), 0),
-        ("claims", "all"): (len(rulings), 0),
-    }
-    for case, those in (("", rulings), (", without repetitions", independent(rulings))):
-        for kind in KINDS:
-            counts["claims", f"{kind}{case}"] = sum(ruling.kind == kind for ruling in those), left
-    numbers = [Number(name, case, float(n), "1", float(error)) for (name, case), (n, error) in counts.items()]
-    shares = {
-        "share_of_machines": [ruling.first for ruling in rulings],
-        "share_of_second_hypercube": [ruling.second for ruling in rulings],
-    }
-    for name, counted in shares.items():
-        for n, one in enumerate(counted, 1):
-            if one.share is not None:
-                low, high = one.interval
-                error = max(high - one.share, one.share - low)
-                numbers.append(Number(name, f"claim {n}", one.share, "1", error))
-    for case, row in evidence(rows[0].measures or {}).items():
-        numbers += [Number(name, case, m.value, unit(name) or "1", m.error) for name, m in row.items()]
-    return numbers
-
-
 def why(ruling: Ruling, numbers: dict[str, int]) -> str:
     """The reason for a verdict, in a few sentences with numbers; numbers: of statements by their names."""
     claim, first = ruling.claim, ruling.first
@@ -210,15 +106,110 @@ class Claims(Study):
         """The machines of both hypercubes and the reference support, and the verdicts on all statements."""
         self.rows, self.rulings = draw(self.chosen)
         self.hypercubes = hypercubes(self.rows)
-        self.numbers = measure(self.rulings, self.rows)
+        self.numbers = self.measured()
 
     def figures(self) -> dict[str, Figure]:
         """All figures."""
         return figures(self.rulings, evidence(self.rows[0].measures or {}), *self.hypercubes)
 
     def tables(self) -> dict[str, Sheet]:
-        """All tables."""
-        return tables(self.rulings, self.rows)
+        """Verdicts, statements, thresholds, data that are drawn, and machines that could not be run, if any."""
+        rulings, apart = self.rulings, independent(self.rulings)
+        numbered = list(enumerate(rulings, 1))
+        verdicts = []
+        for kind in KINDS:
+            which = [n for n, ruling in numbered if ruling.kind == kind]
+            second = sum(ruling.verdict(ruling.second) == kind for ruling in rulings)
+            repeated = "" if kind == NOT_MEASURABLE else str(sum(ruling.kind == kind for ruling in apart))
+            verdicts.append((kind, str(len(which)), repeated, str(second), ", ".join(map(str, which))))
+
+        statements: list[tuple[str, ...]] = []
+        thresholds: list[tuple[str, ...]] = []
+        for n, ruling in numbered:
+            claim = ruling.claim
+            share = "closed form" if claim.stiffness_mm else str(ruling.first)
+            ours = f"{ruling.ours} (paper: {claim.paper})" if claim.paper else ruling.ours
+            error = f"{ruling.error:.0e}" if ruling.error else "0" if claim.is_measurable else ""
+            text = f"{claim.text} ({claim.where})"
+            statements.append(
+                (str(n), text, ruling.kind, share, str(ruling.second), ours, error, claim.reading)
+            )
+            if ruling.thresholds:
+                cells = (
+                    f"{100.0 * at:g} %: {counted}, {counted.kind}"
+                    if at < 0.5
+                    else f"{at:g}: {counted}, {counted.kind}"
+                    for at, counted in ruling.thresholds.items()
+                )
+                thresholds.append((str(n), claim.name, *cells, "yes" if ruling.hangs else "no"))
+
+        factors = []
+        for factor in FACTORS:
+            first_span, second_span = factor.span(second=False), factor.span(second=True)
+            reference = REFERENCE[factor.name]
+            shown = reference if isinstance(reference, str) else f"{reference:g}"
+            differing = "" if first_span == second_span else second_span
+            factors.append((factor.label, factor.meaning, first_span, differing, shown, factor.reason))
+
+        failures: list[tuple[str, ...]] = [
+            (str(n), f"{row.sample['scale']:.3g}", f"{row.sample['start_height']:.3g}", row.failure)
+            for n, row in enumerate(self.rows)
+            if row.failure is not None
+        ]
+        found: dict[str, tuple[tuple[str, ...], Sequence[tuple[str, ...]]]] = {
+            "verdicts": (
+                ("verdict", "statements", "without repetitions", "second hypercube", "no."),
+                verdicts,
+            ),
+            "table": (
+                (
+                    "no.", "statement (where)", "verdict", "machines", "second hypercube",
+                    "reference support (paper)", "error", "read as",
+                ),
+                statements,
+            ),
+            "thresholds": (("no.", "statement", "lower", "middle", "upper", "hangs on it"), thresholds),
+            "factors": (
+                ("datum", "meaning", "first hypercube", "second, if not alike", "reference support", "reason"),
+                factors,
+            ),
+            "failures": (("machine", "scale", "start height", "reason"), failures),
+        }  # fmt: skip
+        return {
+            name: text_table(header, rows_of, wide=True)
+            for name, (header, rows_of) in found.items()
+            if rows_of or name != "failures"
+        }
+
+    def measured(self) -> list[Number]:
+        """Verdicts, shares with their uncertainty, and the reference support's measures with errors."""
+        rows, rulings, (first, second) = self.rows, self.rulings, self.hypercubes
+        left = sum(ruling.kind == NEEDS_MORE for ruling in rulings)  # which more machines may put elsewhere
+        counts = {
+            ("plausible_machines", "first hypercube"): (len(first), 0),
+            ("plausible_machines", "second hypercube"): (len(second), 0),
+            ("plausible_machines", "failed"): (sum(row.measures is None for row in rows), 0),
+            ("claims", "all"): (len(rulings), 0),
+        }
+        for case, those in (("", rulings), (", without repetitions", independent(rulings))):
+            for kind in KINDS:
+                counts["claims", f"{kind}{case}"] = sum(ruling.kind == kind for ruling in those), left
+        numbers = [
+            Number(name, case, float(n), "1", float(error)) for (name, case), (n, error) in counts.items()
+        ]
+        shares = {
+            "share_of_machines": [ruling.first for ruling in rulings],
+            "share_of_second_hypercube": [ruling.second for ruling in rulings],
+        }
+        for name, counted in shares.items():
+            for n, one in enumerate(counted, 1):
+                if one.share is not None:
+                    low, high = one.interval
+                    error = max(high - one.share, one.share - low)
+                    numbers.append(Number(name, f"claim {n}", one.share, "1", error))
+        for case, row in evidence(rows[0].measures or {}).items():
+            numbers += [Number(name, case, m.value, unit(name) or "1", m.error) for name, m in row.items()]
+        return numbers
 
     def claims(self) -> list[JudgedClaim]:
         """Every statement with its verdict."""

@@ -76,38 +76,6 @@ def rise_numbers(watched: Watched, results: Mapping[str, Result]) -> list[Number
     return measured_all(results, measures) + counted_ones
 
 
-# --- tables ---
-
-
-def key_table(found: Found) -> Sheet:
-    """What an engineer asks for first, a row a law: what it delivers, and the motion under it."""
-    rows = []
-    for case in KEY:
-        restitutions = [found.get((DELIVERED, f"{case} e={asked:g}")) for asked in (LOW, HIGH)]
-        delivered = ["" if n is None else f"{n.value:.3f}" for n in restitutions]
-        forces = (cell(found[name, case], 1e-3) for name in (MEAN, STD, PEAK))
-        rows.append((row_title(case), *delivered, *forces))
-    asked = tuple(f"delivers for e = {e:g}" for e in (LOW, HIGH))
-    return text_table(("law", *asked, "mean force [kN]", "its std [kN]", "largest force [kN]"), rows)
-
-
-def rest_table(watched: Watched, results: Mapping[str, Result], numbers: Sequence[Number]) -> Sheet:
-    """What the rest velocity changes, a row a velocity: damping, soft impacts, the motion, its cost."""
-    found, rows = by_case(numbers), []
-    for case, velocity in REST.items():
-        result = results[case]
-        ratio = damping_ratio(result.scenario, watched.pin)
-        soft = [f"{soft_restitution(result.scenario, watched.pin, speed):.3f}" for speed in SOFT]
-        force = cell(found[STD, case])
-        rows.append((f"{1e3 * velocity:g}", f"{ratio:.2g}", *soft, force, f"{result.counts.steps}"))
-    impacts = (f"delivered at {1e3 * speed:g} mm/s" for speed in SOFT)
-    header = ("rest velocity [mm/s]", "damping ratio at rest", *impacts, "std pin force [N]", "steps")
-    return text_table(header, rows)
-
-
-# --- the study ---
-
-
 class ContactLaws(Study):
     """What do contact laws deliver, and what does the choice of a law change in the motion?"""
 
@@ -149,49 +117,69 @@ class ContactLaws(Study):
 
     def tables(self) -> dict[str, Sheet]:
         """All tables."""
-        rest = rest_table(self.subject.watched, self.resting, self.rested)
-        return {"laws": key_table(self.of_laws), "rest_table": rest}
+        return {"laws": self.key_table(), "rest_table": self.rest_table()}
+
+    def key_table(self) -> Sheet:
+        """What an engineer asks for first, a row a law: what it delivers, and the motion under it."""
+        found, rows = self.of_laws, []
+        for case in KEY:
+            restitutions = [found.get((DELIVERED, f"{case} e={asked:g}")) for asked in (LOW, HIGH)]
+            delivered = ["" if n is None else f"{n.value:.3f}" for n in restitutions]
+            forces = (cell(found[name, case], 1e-3) for name in (MEAN, STD, PEAK))
+            rows.append((row_title(case), *delivered, *forces))
+        asked = tuple(f"delivers for e = {e:g}" for e in (LOW, HIGH))
+        return text_table(("law", *asked, "mean force [kN]", "its std [kN]", "largest force [kN]"), rows)
+
+    def rest_table(self) -> Sheet:
+        """What the rest velocity changes, a row a velocity: damping, soft impacts, the motion, its cost."""
+        found, rows, pin = by_case(self.rested), [], self.subject.watched.pin
+        for case, velocity in REST.items():
+            result = self.resting[case]
+            ratio = damping_ratio(result.scenario, pin)
+            soft = [f"{soft_restitution(result.scenario, pin, speed):.3f}" for speed in SOFT]
+            force = cell(found[STD, case])
+            rows.append((f"{1e3 * velocity:g}", f"{ratio:.2g}", *soft, force, f"{result.counts.steps}"))
+        impacts = (f"delivered at {1e3 * speed:g} mm/s" for speed in SOFT)
+        header = ("rest velocity [mm/s]", "damping ratio at rest", *impacts, "std pin force [N]", "steps")
+        return text_table(header, rows)
 
     def words(self) -> dict[str, object]:
-        """What is said of impacts and motions under each law."""
-        joint = self.joint
-        return _words(self.of_laws, [*self.risen]) | {
+        """What is said of free impacts, and of the motion under each law."""
+        found, joint = self.of_laws, self.joint
+        bore_radius = joint.pin.contact.bearing.bore_radius
+        power = {name: found[DELIVERED, f"{name} e={LOW:g}"].value for name in POWER_LAWS}
+        frictions = [case for case in self.risen if case.startswith("friction ")]
+        hysteresis = [case for case in self.risen if case in POWER_LAWS]
+        closed = [one for one in found.values() if one.name == CLOSED_FORM]
+        peaks = {case: found[PEAK, case].value for case in self.risen if case not in frictions}
+        return {
             "joint": joint,
-            "pin_length": joint.length or catalogue.pin_length(joint.pin.contact.bearing.bore_radius),
-            "bore_radius": joint.pin.contact.bearing.bore_radius,
+            "pin_length": joint.length or catalogue.pin_length(bore_radius),
+            "bore_radius": bore_radius,
             "rubbing": _spreads(by_case(self.with_friction), [f"{name}{RUBBING}" for name in POWER_LAWS]),
             "rested": by_case(self.rested),
             "at_steps": {name: case for name, case in joint.runs.items() if case.accuracy is None},
             "goal": self.ideal.goal,
+            "cases": cases,
+            "title": title,
+            "row_title": row_title,
+            "offs": [abs(found[DELIVERED, one.case].value - one.value) for one in closed],
+            "low": LOW,
+            "high": HIGH,
+            "power": power,
+            "most": max(power, key=power.__getitem__),
+            "least": min(power, key=power.__getitem__),
+            "paper_high": found[DELIVERED, f"lankarani_nikravesh e={HIGH:g}"].value,
+            "risen": found,
+            "frictions": frictions,
+            "hysteresis": hysteresis,
+            "spread": _spreads(found, hysteresis),
+            "softest": min(peaks, key=peaks.__getitem__),
+            "stiffest": max(peaks, key=peaks.__getitem__),
+            "lost": max(
+                found["energy_error", c].value / found["energy_dissipated", c].value for c in hysteresis
+            ),
         }
-
-
-def _words(found: Found, risen: Sequence[str]) -> dict[str, object]:
-    """What is said of free impacts, and of the rise under each law; risen: its cases."""
-    power = {name: found[DELIVERED, f"{name} e={LOW:g}"].value for name in POWER_LAWS}
-    frictions = [case for case in risen if case.startswith("friction ")]
-    hysteresis = [case for case in risen if case in POWER_LAWS]
-    closed = [one for one in found.values() if one.name == CLOSED_FORM]
-    peaks = {case: found[PEAK, case].value for case in risen if case not in frictions}
-    return {
-        "cases": cases,
-        "title": title,
-        "row_title": row_title,
-        "offs": [abs(found[DELIVERED, one.case].value - one.value) for one in closed],
-        "low": LOW,
-        "high": HIGH,
-        "power": power,
-        "most": max(power, key=power.__getitem__),
-        "least": min(power, key=power.__getitem__),
-        "paper_high": found[DELIVERED, f"lankarani_nikravesh e={HIGH:g}"].value,
-        "risen": found,
-        "frictions": frictions,
-        "hysteresis": hysteresis,
-        "spread": _spreads(found, hysteresis),
-        "softest": min(peaks, key=peaks.__getitem__),
-        "stiffest": max(peaks, key=peaks.__getitem__),
-        "lost": max(found["energy_error", c].value / found["energy_dissipated", c].value for c in hysteresis),
-    }
 
 
 def _spreads(found: Found, cases_of: Sequence[str]) -> dict[str, float]:

@@ -94,43 +94,6 @@ def shares(judged: Judged) -> dict[tuple[str, str], CountedShare]:
     return found
 
 
-# --- numbers ---
-
-
-def numbers(judged: Judged, long: Long) -> list[Number]:
-    """Shares with their counting errors, extremes of this very set of runs, and what long runs came to."""
-    from scipy.stats import quantile_test  # takes a second to import
-
-    made = []
-    for (name, case), share in shares(judged).items():
-        value, (low, high) = share.held / share.number, share.interval
-        made.append(Number(name, case, value, "1", max(value - low, high - value)))
-    errors = [one.error for one in of_groups(judged, RANDOM) if one.outcome == GOOD]
-    low, high = quantile_test(errors, p=0.5).confidence_interval(SURE) if errors else (math.nan, math.nan)
-    middle = float(np.median(errors)) if errors else math.nan
-    if (of_error := max(middle - low, high - middle)) >= 0.0:  # none of too few
-        made.append(Number("median_reported_error", "drawn, good", middle, "1", float(of_error)))
-    good = [verdict for _, verdict in judged if verdict.outcome == GOOD]
-    of_these = f"the {len(good)} good of {len(judged)} runs"  # others have other extremes
-    extremes = {
-        "largest_energy_open": [one.energy for one in good],
-        "largest_oil_open": [one.oil for one in good],
-        "largest_depth": [one.depth for one in good],
-        "largest_restitution_over_law": [one.restitution for one in good],
-        "largest_half_over_reported": [one.half / one.error for one in good if one.error],
-    }
-    made += [Number(name, of_these, largest(values), "1", 0.0) for name, values in extremes.items()]
-    for name, run in long.items():
-        if isinstance(run, LongRun):
-            case = f"{name}, {run.simulated:g} s"
-            made += [
-                Number("largest_gap", case, run.gap_last, "m", 0.0),
-                Number("gap_slope", case, run.gap_slope, "m/s", 0.0),
-                Number("energy_open", case, run.energy_share, "1", 0.0),
-            ]
-    return made
-
-
 def largest(values: Sequence[float]) -> float:
     """The largest of those that are numbers; 0 if none is."""
     return max((value for value in values if math.isfinite(value)), default=0.0)
@@ -149,31 +112,6 @@ def ended(verdicts: Sequence[Judgement]) -> dict[str, int]:
 def checked_twice(verdicts: Sequence[Judgement]) -> int:
     """How many runs another formulation checked, too."""
     return sum(math.isfinite(one.other) for one in verdicts)
-
-
-# --- tables ---
-
-
-def tables(judged: Judged, long: Long) -> dict[str, Sheet]:
-    """How the runs ended, why some were refused and what is wrong with others; and the long runs."""
-    kinds = []
-    for kind, groups in KINDS.items():
-        here = of_groups(judged, groups)
-        kinds.append((kind, *map(str, (len(here), *ended(here).values(), checked_twice(here)))))
-    refused = Counter(_kind(verdict.reason) for _, verdict in judged if verdict.outcome == REFUSED)
-    silent = [(case.name, verdict.reason) for case, verdict in judged if verdict.outcome == SILENT]
-    of_kinds = ("scenes", "runs", "good", "refused", "silently wrong", "checked by another formulation")
-    of_long = (
-        "scene", "time [s]", "took [s]", "steps", "impacts", "gap, first tenth [m]", "gap, last tenth [m]",
-        "energy open / turned over",
-    )  # fmt: skip
-    reasons = [(str(number), reason) for reason, number in refused.most_common()]
-    return {
-        "table_kinds": text_table(of_kinds, kinds),
-        "table_reasons": text_table(("runs", "reason"), reasons, wide=True),
-        "table_silent": text_table(("run", "what is wrong"), silent or [("none", "")], wide=True),
-        "table_long": text_table(of_long, [_long_row(name, run) for name, run in long.items()]),
-    }
 
 
 def _kind(reason: str) -> str:
@@ -204,50 +142,96 @@ class Extremes(Study):
         drawn = cases(self.chosen.runs or DRAWN)
         self.long = run_long(long_runs.DURATIONS, self.chosen.workers)
         self.judged = list(zip(drawn, judge_all(drawn, self.chosen.workers), strict=True))
-        self.numbers = numbers(self.judged, self.long)
+        self.numbers = self.measured()
+
+    def measured(self) -> list[Number]:
+        """Shares with their counting errors, extremes of this very set of runs, and what long runs came to."""
+        from scipy.stats import quantile_test  # takes a second to import
+
+        made = []
+        for (name, case), share in shares(self.judged).items():
+            value, (low, high) = share.held / share.number, share.interval
+            made.append(Number(name, case, value, "1", max(value - low, high - value)))
+        errors = [one.error for one in of_groups(self.judged, RANDOM) if one.outcome == GOOD]
+        low, high = quantile_test(errors, p=0.5).confidence_interval(SURE) if errors else (math.nan, math.nan)
+        middle = float(np.median(errors)) if errors else math.nan
+        if (of_error := max(middle - low, high - middle)) >= 0.0:  # none of too few
+            made.append(Number("median_reported_error", "drawn, good", middle, "1", float(of_error)))
+        good = [verdict for _, verdict in self.judged if verdict.outcome == GOOD]
+        of_these = f"the {len(good)} good of {len(self.judged)} runs"  # others have other extremes
+        extremes = {
+            "largest_energy_open": [one.energy for one in good],
+            "largest_oil_open": [one.oil for one in good],
+            "largest_depth": [one.depth for one in good],
+            "largest_restitution_over_law": [one.restitution for one in good],
+            "largest_half_over_reported": [one.half / one.error for one in good if one.error],
+        }
+        made += [Number(name, of_these, largest(values), "1", 0.0) for name, values in extremes.items()]
+        for name, run in self.long.items():
+            if isinstance(run, LongRun):
+                case = f"{name}, {run.simulated:g} s"
+                made += [
+                    Number("largest_gap", case, run.gap_last, "m", 0.0),
+                    Number("gap_slope", case, run.gap_slope, "m/s", 0.0),
+                    Number("energy_open", case, run.energy_share, "1", 0.0),
+                ]
+        return made
 
     def figures(self) -> dict[str, Figure]:
-        """All figures."""
+        """All maps, and where each solver holds."""
         return figures(self.judged)
 
     def tables(self) -> dict[str, Sheet]:
-        """All tables."""
-        return tables(self.judged, self.long)
+        """How the runs ended, why some were refused and what is wrong with others; and the long runs."""
+        kinds = []
+        for kind, groups in KINDS.items():
+            here = of_groups(self.judged, groups)
+            kinds.append((kind, *map(str, (len(here), *ended(here).values(), checked_twice(here)))))
+        refused = Counter(_kind(verdict.reason) for _, verdict in self.judged if verdict.outcome == REFUSED)
+        silent = [(case.name, verdict.reason) for case, verdict in self.judged if verdict.outcome == SILENT]
+        of_kinds = ("scenes", "runs", "good", "refused", "silently wrong", "checked by another formulation")
+        of_long = (
+            "scene", "time [s]", "took [s]", "steps", "impacts", "gap, first tenth [m]", "gap, last tenth [m]",
+            "energy open / turned over",
+        )  # fmt: skip
+        reasons = [(str(number), reason) for reason, number in refused.most_common()]
+        return {
+            "table_kinds": text_table(of_kinds, kinds),
+            "table_reasons": text_table(("runs", "reason"), reasons, wide=True),
+            "table_silent": text_table(("run", "what is wrong"), silent or [("none", "")], wide=True),
+            "table_long": text_table(of_long, [_long_row(name, run) for name, run in self.long.items()]),
+        }
 
     def counts(self) -> dict[str, int]:
         """How many runs ended how."""
-        verdicts = [verdict for _, verdict in self.judged]
-        return {f"runs_{outcome}": number for outcome, number in ended(verdicts).items()}
+        found = ended([verdict for _, verdict in self.judged])
+        return {f"runs_{outcome}": number for outcome, number in found.items()}
 
     def words(self) -> dict[str, object]:
         """What the sentences are filled with."""
-        return words_of(self.judged, self.long) | {"counts": self.counts()}
-
-
-def words_of(judged: Judged, long: Long) -> dict[str, object]:
-    """What the sentences are filled with."""
-    every = [verdict for _, verdict in judged]
-    shared = shares(judged)
-    lasting = [run for run in long.values() if isinstance(run, LongRun)]
-    return {
-        "runs": len(judged),
-        "kinds": len(RANDOM),
-        "spans": SPANS,
-        "limits": SimpleNamespace(OPEN=OPEN, DEEPEST=DEEPEST, FREE=FREE, LEAK=LEAK, MORE=MORE),
-        "patience": PATIENCE,
-        "sure": SURE,
-        "silent": shared[SILENT, "drawn"],
-        "good_in_box": shared[GOOD, SENSIBLE],
-        "met_in_box": shared["accuracy_met", SENSIBLE],
-        "no_scene": sum(verdict.reason.startswith(BEFORE) for verdict in every),
-        "checked": checked_twice(every),
-        "maps": {group: _of_map(of_groups(judged, (group,))) for group in MAPS},
-        "energy_open": largest([one.energy for one in every if one.outcome == GOOD]),
-        "lasting": lasting,
-        "lost": {name: why for name, why in long.items() if isinstance(why, str)},
-        "gap": largest([run.gap_last for run in lasting]),
-        "long_energy": largest([run.energy_share for run in lasting]),
-    }
+        every = [verdict for _, verdict in self.judged]
+        shared = shares(self.judged)
+        lasting = [run for run in self.long.values() if isinstance(run, LongRun)]
+        return {
+            "counts": self.counts(),
+            "runs": len(self.judged),
+            "kinds": len(RANDOM),
+            "spans": SPANS,
+            "limits": SimpleNamespace(OPEN=OPEN, DEEPEST=DEEPEST, FREE=FREE, LEAK=LEAK, MORE=MORE),
+            "patience": PATIENCE,
+            "sure": SURE,
+            "silent": shared[SILENT, "drawn"],
+            "good_in_box": shared[GOOD, SENSIBLE],
+            "met_in_box": shared["accuracy_met", SENSIBLE],
+            "no_scene": sum(verdict.reason.startswith(BEFORE) for verdict in every),
+            "checked": checked_twice(every),
+            "maps": {group: _of_map(of_groups(self.judged, (group,))) for group in MAPS},
+            "energy_open": largest([one.energy for one in every if one.outcome == GOOD]),
+            "lasting": lasting,
+            "lost": {name: why for name, why in self.long.items() if isinstance(why, str)},
+            "gap": largest([run.gap_last for run in lasting]),
+            "long_energy": largest([run.energy_share for run in lasting]),
+        }
 
 
 def _of_map(here: Sequence[Judgement]) -> dict[str, float]:

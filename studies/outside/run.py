@@ -68,41 +68,6 @@ def velenje_rows(runs: Mapping[str, Result]) -> list[ComparedNumber]:
 COMPUTED = {"newton_limit": newton_rows, "velenje": velenje_rows}  # numbers that no table has
 
 
-def case_table(found: Sequence[tuple[OutsideCase, Sequence[ComparedNumber]]]) -> Sheet:
-    """A row a case: who computed it, how far off ours is at most, both errors, and the verdict."""
-    rows = []
-    for case, numbers in found:
-        worst = max(numbers, key=lambda one: one.off / one.allowed)
-        relative = not case.absolute
-        scale, unit = (1.0 / abs(worst.theirs), "") if relative else (1.0, f" {worst.unit}")
-        shown = [f"{scale * error:.1g}{unit}" for error in (worst.their_error, worst.our_error, worst.off)]
-        met = sum(one.met for one in numbers)
-        verdict = "met" if met == len(numbers) else f"{met} of {len(numbers)} met"
-        asked = f"{case.allowed:.0e}{unit if not relative else ''}"
-        rows.append((case.title, case.program, case.source, *shown, asked, verdict))
-    header = ("case", "program", "source", "error of the source", "our error", "off", "asked", "verdict")
-    return text_table(header, rows, left=3, wide=True)
-
-
-def figure(found: Sequence[tuple[OutsideCase, Sequence[ComparedNumber]]], runs: Mapping[str, Result]) -> Figure:
-    """The four-bar with loose pins by both programs, and the stiff guide's distance from Newton's impacts."""
-    drawing, ((four_bar, limit),) = grid(70, 1, 2)
-    run = runs["three_loose_pins" + FINE]
-    known = next(numbers for case, numbers in found if case.name == "three_loose_pins_rate")
-    four_bar.plot(run.time, run["crank.angular_velocity"], color=style.WITH_CLEARANCE, lw=1.0, label="here")
-    times = [float(one.what.split(" at ")[1].removesuffix(" s")) for one in known]
-    four_bar.plot(times, [one.theirs for one in known], "x", color=style.IDEAL, ms=5, label="Siconos")
-    four_bar.set(xlabel="time [s]", ylabel="crank [rad/s]")
-    four_bar.legend()
-    distances = [abs(crank_at(runs[scene + FINE]) - LIMIT) for scene in STIFFER.values()]
-    limit.loglog(list(STIFFER), distances, "o-", color=style.WITH_CLEARANCE, ms=4, lw=1.0, label="here")
-    line = [abs(SMOOTH - LIMIT) * (stiffness / 1e9) ** -ORDER for stiffness in STIFFER]
-    limit.loglog(list(STIFFER), line, "--", color=style.IDEAL, lw=1.0, label=f"K to the power of -{ORDER:g}")
-    limit.set(xlabel="stiffness K [N/m$^{1.5}$]", ylabel="distance from Newton [rad]")
-    limit.legend()
-    return finish(drawing, [four_bar, limit])
-
-
 class Outside(Study):
     """Does the program agree with published cases and with foreign programs?"""
 
@@ -128,12 +93,39 @@ class Outside(Study):
         self.numbers = [one.number() for one in self.rows]
 
     def figures(self) -> dict[str, Figure]:
-        """How far off every number is."""
-        return {"outside": figure(self.compared, self.all_runs)}
+        """The four-bar with loose pins by both programs, and how far stiff guides are from Newton's impacts."""
+        drawing, ((four_bar, limit),) = grid(70, 1, 2)
+        run = self.all_runs["three_loose_pins" + FINE]
+        known = next(numbers for case, numbers in self.compared if case.name == "three_loose_pins_rate")
+        four_bar.plot(run.time, run["crank.angular_velocity"], color=style.WITH_CLEARANCE, lw=1.0, label="here")
+        times = [float(one.what.split(" at ")[1].removesuffix(" s")) for one in known]
+        four_bar.plot(times, [one.theirs for one in known], "x", color=style.IDEAL, ms=5, label="Siconos")
+        four_bar.set(xlabel="time [s]", ylabel="crank [rad/s]")
+        four_bar.legend()
+        distances = [abs(crank_at(self.all_runs[scene + FINE]) - LIMIT) for scene in STIFFER.values()]
+        limit.loglog(list(STIFFER), distances, "o-", color=style.WITH_CLEARANCE, ms=4, lw=1.0, label="here")
+        line = [abs(SMOOTH - LIMIT) * (stiffness / 1e9) ** -ORDER for stiffness in STIFFER]
+        limit.loglog(
+            list(STIFFER), line, "--", color=style.IDEAL, lw=1.0, label=f"K to the power of -{ORDER:g}"
+        )
+        limit.set(xlabel="stiffness K [N/m$^{1.5}$]", ylabel="distance from Newton [rad]")
+        limit.legend()
+        return {"outside": finish(drawing, [four_bar, limit])}
 
     def tables(self) -> dict[str, Sheet]:
-        """A row a case."""
-        return {"table_cases": case_table(self.compared)}
+        """A row a case: who computed it, how far off ours is at most, both errors, and the verdict."""
+        rows = []
+        for case, numbers in self.compared:
+            worst = max(numbers, key=lambda one: one.off / one.allowed)
+            relative = not case.absolute
+            scale, unit = (1.0 / abs(worst.theirs), "") if relative else (1.0, f" {worst.unit}")
+            shown = [f"{scale * error:.1g}{unit}" for error in (worst.their_error, worst.our_error, worst.off)]
+            met = sum(one.met for one in numbers)
+            verdict = "met" if met == len(numbers) else f"{met} of {len(numbers)} met"
+            asked = f"{case.allowed:.0e}{unit if not relative else ''}"
+            rows.append((case.title, case.program, case.source, *shown, asked, verdict))
+        header = ("case", "program", "source", "error of the source", "our error", "off", "asked", "verdict")
+        return {"table_cases": text_table(header, rows, left=3, wide=True)}
 
     def words(self) -> dict[str, object]:
         """Cases with their numbers."""
