@@ -26,7 +26,6 @@ from support_exudyn import (
     HydraulicCylinder,
     Inlet,
     Line,
-    Machine,
     OilColumn,
     OwnBody,
     RampedOpening,
@@ -153,30 +152,26 @@ def _drive(of: Draw, duration: float) -> Drive:
     return of.pick(drives)()
 
 
-def _start(of: Draw, scenario: Scenario) -> Scenario:
-    """The scenario, in a quarter of all cases settled at the start, all journals then in the middle."""
-    if of.even(0.0, 1.0) > 0.25:
-        return scenario
-    pins = {
-        name: replace(pin, eccentricity=(0.0, 0.0)) if isinstance(pin, ClearancePin) else pin
-        for name, pin in scenario.pins.items()
-    }
-    return replace(scenario, pins=pins, start="settled")
+def _scene(of: Draw, pins: Mapping[str, ClearancePin], longest: float, **more: object) -> Scenario:
+    """A scene of the support of up to so many seconds.
 
-
-def _scene(
-    of: Draw,
-    machine: Machine,
-    pins: Mapping[str, ClearancePin],
-    longest: float,
-    **more: object,
-) -> Scenario:
+    In a quarter of all cases it is settled at the start, all journals then in the middle.
+    """
     duration = of.log(SHORTEST, longest)
     fields: dict[str, object] = {
-        "machine": machine, "pins": pins, "duration": duration, "record_period": duration / RECORDS,
+        "machine": reference_support(), "pins": pins, "duration": duration, "record_period": duration / RECORDS,
         "drive": _drive(of, duration), "solver": SolverSettings(most_steps=MOST_STEPS),
     }  # fmt: skip
-    return _start(of, Scenario(**(fields | more)))  # type: ignore[arg-type]
+    scenario = Scenario(**(fields | more))  # type: ignore[arg-type]
+    if of.even(0.0, 1.0) > 0.25:
+        return scenario
+    middle = {name: replace(pin, eccentricity=(0.0, 0.0)) for name, pin in scenario.clearance_pins.items()}
+    return replace(scenario, pins={**scenario.pins, **middle}, start="settled")
+
+
+def _third_on_engine(of: Draw, scene: Scenario) -> Scenario:
+    """The scene; a third of them ask for the engine's formulation."""
+    return replace(scene, formulation="exudyn") if of.chance(0.33) else scene
 
 
 def _oil(
@@ -194,36 +189,31 @@ def _oil(
     )
 
 
-def _columns(oil: OilColumn) -> dict[str, OilColumn]:
-    return {"front_column": oil, "rear_column": oil}
+def _columns(of: Draw) -> dict[str, OilColumn]:
+    return dict.fromkeys(("front_column", "rear_column"), _oil(of))
 
 
 # --- the kinds ---
 
 
 def _rear_pin(of: Draw) -> Scenario:
-    """A rear pin; a third of these scenes ask for the engine's formulation."""
-    scene = _scene(of, reference_support(), {paper_machine.CLEARANCE_PIN: _pin(of)}, 0.4)
-    return replace(scene, formulation="exudyn", start="concentric") if of.chance(0.33) else scene
+    scene = _third_on_engine(of, _scene(of, {paper_machine.CLEARANCE_PIN: _pin(of)}, 0.4))
+    return replace(scene, start="concentric") if scene.formulation == "exudyn" else scene
 
 
 def _any_pin(of: Draw) -> Scenario:
-    name = _some_pin(of)
-    return _scene(of, reference_support(), {name: _pin(of)}, 0.12)
+    return _scene(of, {_some_pin(of): _pin(of)}, 0.12)
 
 
 def _several_pins(of: Draw) -> Scenario:
-    machine = reference_support()
-    names = of.random.permutation(list(machine.linkage().pins)).tolist()
+    names = of.random.permutation(list(reference_support().linkage().pins)).tolist()
     chosen = names[: int(of.random.integers(2, len(names) + 1))]
-    return _scene(of, machine, {name: _pin(of) for name in chosen}, 0.08)
+    return _scene(of, {name: _pin(of) for name in chosen}, 0.08)
 
 
 def _on_oil(of: Draw) -> Scenario:
-    """Columns of oil; a third of these scenes ask for the engine's formulation."""
     name = _some_pin(of, rear=0.6)
-    scene = _scene(of, reference_support(), {name: _pin(of)}, 0.2, actuators=_columns(_oil(of)))
-    return replace(scene, formulation="exudyn") if of.chance(0.33) else scene
+    return _third_on_engine(of, _scene(of, {name: _pin(of)}, 0.2, actuators=_columns(of)))
 
 
 def _on_cylinders(of: Draw) -> Scenario:
@@ -239,21 +229,18 @@ def _on_cylinders(of: Draw) -> Scenario:
     cylinder = replace(cylinder, bulk_modulus=of.log(7e8, 2e9))
     columns: dict[str, HydraulicCylinder] = {"front_column": cylinder, "rear_column": cylinder}
     pins = {paper_machine.CLEARANCE_PIN: _pin(of)} if of.chance(0.8) else {}
-    scene = _scene(of, reference_support(), pins, 0.3, actuators=columns, drive=Held())
+    scene = _scene(of, pins, 0.3, actuators=columns, drive=Held())
     return replace(scene, duration=duration, record_period=duration / RECORDS, start="concentric")
 
 
 def _on_legs(of: Draw) -> Scenario:
-    """Columns of oil, or cylinders on a pump, with valves, hoses, air, seals.
-
-    A third of these scenes ask for the engine's formulation.
-    """
+    """Columns of oil, or cylinders on a pump, with valves, hoses, air, seals."""
     pins = {_some_pin(of, rear=0.6): _pin(of)} if of.chance(0.6) else {}
     loads = static_loads(reference_support().linkage(), GRAVITY)
     columns: dict[str, Leg]
     if of.chance(0.5):
         columns = {name: with_elements(of, _oil(of), load) for name, load in loads.items()}
-        scene = _scene(of, reference_support(), pins, 0.15, actuators=columns)
+        scene = _scene(of, pins, 0.15, actuators=columns)
     else:
         base = _on_cylinders(of)
         columns = {name: with_elements(of, leg, loads[name]) for name, leg in base.valved.items()}
@@ -261,7 +248,7 @@ def _on_legs(of: Draw) -> Scenario:
         scene = replace(base, pins=pins, actuators=columns, pump=shared)
     if of.chance(0.4):
         scene = replace(scene, loads={"roof": _roof(of, scene.duration, sum(loads.values()))})
-    return replace(scene, formulation="exudyn") if of.chance(0.33) else scene
+    return _third_on_engine(of, scene)
 
 
 def _roof(of: Draw, duration: float, weight: float) -> Roof:
@@ -287,18 +274,17 @@ def _under_block(of: Draw) -> Scenario:
         restitution=of.even(0.2, 0.9),
     )
     pins = {_some_pin(of): _pin(of)} if of.chance(0.6) else {}
-    columns = _columns(_oil(of)) if of.chance(0.5) else {}
-    return replace(
-        _scene(of, machine, pins, 0.12, actuators=columns, loads={"rock": block}), start="concentric"
-    )
+    columns = _columns(of) if of.chance(0.5) else {}
+    scene = _scene(of, pins, 0.12, actuators=columns, loads={"rock": block})
+    return replace(scene, start="concentric")
 
 
 def _tail_beam(of: Draw) -> Scenario:
     jack = _oil(of, (0.1, 0.18), (0.15, 0.5), 1)
-    columns = _columns(_oil(of)) if of.chance(0.5) else {}
+    columns = _columns(of) if of.chance(0.5) else {}
     pins = {paper_machine.CLEARANCE_PIN: _pin(of)}
     parts = {"tail_beam": OwnBody(jack=jack)}
-    return _scene(of, reference_support(), pins, 0.15, parts=parts, actuators=columns)
+    return _scene(of, pins, 0.15, parts=parts, actuators=columns)
 
 
 def _crank(of: Draw) -> Scenario:
@@ -314,13 +300,13 @@ def _crank(of: Draw) -> Scenario:
         gravity=(0.0, -9.81 if of.chance(0.5) else 0.0),
         solver=SolverSettings(most_steps=MOST_STEPS),
     )
-    return replace(scene, formulation="exudyn") if of.chance(0.33) else scene
+    return _third_on_engine(of, scene)
 
 
 def _in_space(of: Draw) -> Scenario:
     name = _some_pin(of, rear=0.5)
-    columns = _columns(_oil(of)) if of.chance(0.5) else {}
-    return _scene(of, reference_support(), {name: _pin(of)}, 0.08, actuators=columns, dimensions=3)
+    columns = _columns(of) if of.chance(0.5) else {}
+    return _scene(of, {name: _pin(of)}, 0.08, actuators=columns, dimensions=3)
 
 
 Kinds = Mapping[str, Callable[[Draw], Scenario]]
