@@ -2,7 +2,8 @@
 
 import math
 from dataclasses import dataclass
-from typing import Any
+
+from pydantic import TypeAdapter
 
 from studies.claims.evidence import RELATIONS, Evidence, Measured, Verdict, every
 from studies.claims.plausible_runs import CLEARANCES, IDEAL
@@ -113,12 +114,4 @@ def stiffnesses(claim: Claim) -> tuple[bool, str]:
     return same, ", ".join(f"{k:.3f}" for k in ours)
 
 
-def _claim(judge: dict[str, Any] | None = None, stiffness_mm: tuple[float, ...] = (), **row: str) -> Claim:
-    """A row of the file, with tuples in place of lists."""
-    given: dict[str, Any] = {
-        key: tuple(value) if isinstance(value, list) else value for key, value in (judge or {}).items()
-    }
-    return Claim(judge=Judge(**given) if judge else None, stiffness_mm=tuple(stiffness_mm), **row)
-
-
-CLAIMS = tuple(_claim(**row) for row in tables("studies.claims", "claims.toml")["claim"])
+CLAIMS = TypeAdapter(tuple[Claim, ...]).validate_python(tables("studies.claims", "claims.toml")["claim"])

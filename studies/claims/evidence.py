@@ -50,20 +50,11 @@ Relation = Callable[[Row, float, Measured | None], Verdict]  # row, threshold, a
 
 
 def _limit(at: float, of: Measured | None) -> Measured:
+    """A threshold, or that share of another number."""
     return Measured(at) if of is None else Measured(abs(of.value), of.error).times(at)
 
 
-def above(row: Row, at: float, of: Measured | None = None) -> Verdict:
-    """Whether all values are above a threshold, or above that share of another number."""
-    return every(m.above(_limit(at, of)) for m in row)
-
-
-def below(row: Row, at: float, of: Measured | None = None) -> Verdict:
-    """Whether all values are below a threshold, or below that share of another number."""
-    return every(_limit(at, of).above(m) for m in row)
-
-
-def rising(row: Row, at: float = 0.0, of: Measured | None = None) -> Verdict:
+def rising(row: Row) -> Verdict:
     """Whether each value is larger than the one before."""
     return every(after.above(before) for before, after in pairwise(row))
 
@@ -74,26 +65,26 @@ def within(row: Row, at: float, of: Measured | None = None) -> Verdict:
     return _limit(at, of or row[0]).above(span)
 
 
-def least_inside(row: Row, at: float = 0.0, of: Measured | None = None) -> Verdict:
+def least_inside(row: Row) -> Verdict:
     """Whether a value between the first and the last is smaller than both."""
     first, *inner, last = row
     return opposite(every(opposite(every([first.above(m), last.above(m)])) for m in inner))
 
 
-def jump(row: Row, at: float, of: Measured | None = None) -> Verdict:
+def jump(row: Row, at: float) -> Verdict:
     """Whether both values of the second half are above those of the first half, times `at`."""
     half = len(row) // 2
     return every(large.above(small.times(at)) for large in row[half:] for small in row[:half])
 
 
 RELATIONS: dict[str, Relation] = {
-    "above": above,
-    "below": below,
-    "rising": rising,
+    "above": lambda row, at, of: every(m.above(_limit(at, of)) for m in row),
+    "below": lambda row, at, of: every(_limit(at, of).above(m) for m in row),
+    "rising": lambda row, at, of: rising(row),
     "falling": lambda row, at, of: rising(row[::-1]),
     "not rising": lambda row, at, of: opposite(rising(row)),
     "within": within,
     "apart": lambda row, at, of: opposite(within(row, at, of)),
-    "least inside": least_inside,
-    "jump": jump,
+    "least inside": lambda row, at, of: least_inside(row),
+    "jump": lambda row, at, of: jump(row, at),
 }

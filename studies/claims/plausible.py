@@ -24,6 +24,7 @@ from support_exudyn import (
     bore_area,
     reference_support,
 )
+from support_exudyn.machines.four_column_support import PIVOTS
 from user_forces import Ambrosio, JournalContact
 from user_forces.values.value import InputError, Vector2
 
@@ -139,13 +140,7 @@ def machine(sample: Sample) -> HydraulicSupport:
     """
     base = reference_support()
     scale = sample["scale"] / REFERENCE_SCALE
-    pivots: dict[str, Any] = {
-        name: _scaled(getattr(base, name), scale)
-        for name in (
-            "rear_base", "front_base", "rear_shield", "front_shield", "hinge", "front_foot", "front_head",
-            "rear_foot", "rear_head", "tip", "tail_hinge", "tail_jack_foot", "tail_jack_head",
-        )
-    }  # fmt: skip
+    pivots: dict[str, Any] = {name: _scaled(getattr(base, name), scale) for name in PIVOTS}
     heavier = {
         (body, place): sample[f"mass_{name}"] for name, (body, places) in BODIES.items() for place in places
     }
@@ -158,11 +153,14 @@ def machine(sample: Sample) -> HydraulicSupport:
     def part(body: str, place: int, one: Part) -> Part:
         mass, inertia = (scale**power * heavier[body, place] for power in (3, 5))
         x, y = (float(c + shift) for c, shift in zip(one.centre, shifts[body], strict=True))
-        moments = one.moments and (
-            one.moments[0] * inertia, one.moments[1] * inertia, one.moments[2] * inertia,
-        )  # fmt: skip
-        centre = _scaled((x, y), scale)
-        return replace(one, mass=one.mass * mass, centre=centre, inertia=one.inertia * inertia, moments=moments)
+        xx, yy, xy = (inertia * moment for moment in one.moments or (0.0, 0.0, 0.0))
+        return replace(
+            one,
+            mass=one.mass * mass,
+            centre=_scaled((x, y), scale),
+            inertia=one.inertia * inertia,
+            moments=one.moments and (xx, yy, xy),
+        )
 
     return replace(
         base,
