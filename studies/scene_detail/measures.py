@@ -82,49 +82,45 @@ def estimate(run: Result, unit: str, get: Get) -> Estimate:
     return Estimate(found.value, max(found.numerical_error, rounding), unit)
 
 
-def measure(scenes: Mapping[str, DetailScene], runs: Mapping[str, Timed]) -> dict[str, MeasuredScene]:
+def measure(
+    scenes: Mapping[str, DetailScene], runs: Mapping[str, tuple[Result, Cost]]
+) -> dict[str, MeasuredScene]:
     """All numbers of all scenes."""
     made = {}
     for name, scene in scenes.items():
-        run = runs[name].run
+        run, cost = runs[name]
         measures = _of_stroke(scene, run)
         if scene.group == "unequal":
             measures |= _of_unequal(scene, run)
         numbers = {what: estimate(run, unit, get) for what, (unit, get) in measures.items()}
         if scene.reference and scene.group != "unequal":
-            numbers[FROM_REFERENCE] = tip_distance(scene, run, runs[scene.reference].run)
+            numbers[FROM_REFERENCE] = tip_distance(scene, run, runs[scene.reference][0])
         if scene.family == STROKE:
-            numbers[FROM_FULLEST] = tip_distance(scene, run, runs[FULLEST].run)
-        made[name] = MeasuredScene(scene, numbers, _cost(runs[name]), run)
+            numbers[FROM_FULLEST] = tip_distance(scene, run, runs[FULLEST][0])
+        made[name] = MeasuredScene(scene, numbers, cost, run)
     return made
 
 
 def _of_stroke(scene: DetailScene, result: Result) -> dict[str, tuple[str, Get]]:
     """Measures of the stroke, and of the first impacts of a clearance rear pin; a settled one has none."""
-    force = f"pin.{REAR}.force"
+    force, turning = f"pin.{REAR}.force", "rear_link.angular_acceleration"
 
     def over_time(statistic: str, channel: str, scale: float = 1.0) -> Get:
         return lambda run: scale * getattr(run.window(channel, scene.begin, scene.end), statistic)
 
-    def largest(channel: str, scale: float) -> Get:
-        return rise.Crest(channel, scale, scene.begin, scene.end)
-
-    def at_steps(run: Result) -> float:
-        return float(run.largest_force[REAR])
-
-    of_all = at_steps if REAR in result.largest_force else rise.Crest(force, 1.0, 0.0, scene.scenario.duration)
+    of_all: Get = rise.Crest(force, 1.0, 0.0, scene.scenario.duration)
+    if REAR in result.largest_force:  # of all steps
+        of_all = lambda run: float(run.largest_force[REAR])  # noqa: E731
+    of_canopy = rise.Crest("canopy.angular_acceleration", DEGREES, scene.begin, scene.end)
     measures: dict[str, tuple[str, Get]] = {
         "mean_pin_force": ("N", over_time("mean", force)),
         "std_pin_force": ("N", over_time("std", force)),
-        "largest_pin_force_in_stroke": ("N", largest(force, 1.0)),
+        "largest_pin_force_in_stroke": ("N", rise.Crest(force, 1.0, scene.begin, scene.end)),
         "largest_pin_force": ("N", of_all),
         "mean_tip_x": ("m", over_time("mean", "tip.x")),
         "mean_tip_y": ("m", over_time("mean", "tip.y")),
-        "std_angular_acceleration": (
-            "deg/s^2",
-            over_time("std", "rear_link.angular_acceleration", DEGREES),
-        ),
-        "largest_canopy_acceleration": ("deg/s^2", largest("canopy.angular_acceleration", DEGREES)),
+        "std_angular_acceleration": ("deg/s^2", over_time("std", turning, DEGREES)),
+        "largest_canopy_acceleration": ("deg/s^2", of_canopy),
     }
     for n in range(min(IMPACTS, impacts(result, REAR))):
         measures[f"onset_speed_{n + 1}"] = "m/s", rise.onset(REAR, n, "speed")
@@ -137,12 +133,6 @@ def _of_unequal(scene: DetailScene, result: Result) -> dict[str, tuple[str, Get]
     def largest(*channels: str, scale: float = 1.0) -> Get:
         return lambda run: max(scale * float(np.abs(run[channel]).max()) for channel in channels)
 
-    def last(channel: str) -> Get:
-        return lambda run: float(run[channel][-1])
-
-    def deepest(channel: str) -> Get:
-        return lambda run: float(run[channel].max())
-
     moment, sides = f"pin.{REAR}.moment", ("left", "right")
     columns = {side: f"front_column_{side}.force" for side in sides}
     measures: dict[str, tuple[str, Get]] = {
@@ -151,14 +141,18 @@ def _of_unequal(scene: DetailScene, result: Result) -> dict[str, tuple[str, Get]
         "largest_front_column_force": ("N", largest(*columns.values())),
     }
     for side, column in columns.items():
-        measures[f"{side}_front_column_force_at_the_end"] = "N", last(column)
+        measures[f"{side}_front_column_force_at_the_end"] = (
+            "N",
+            lambda run, column=column: float(run[column][-1]),
+        )
     if result.channels[f"{moment}_x"].is_determined:  # not of ideal pins, which share it at will
         measures["largest_moment"] = (
             "N m",
             lambda run: float(np.hypot(run[f"{moment}_x"], run[f"{moment}_y"]).max()),
         )
     for side in sides if REAR in scene.scenario.clearance_pins else ():
-        measures[f"largest_{side}_depth"] = "m", deepest(f"pin.{REAR}.{side}_depth")
+        depth = f"pin.{REAR}.{side}_depth"
+        measures[f"largest_{side}_depth"] = "m", lambda run, depth=depth: float(run[depth].max())
     return measures
 
 
@@ -177,21 +171,6 @@ def tip_distance(scene: DetailScene, run: Result, other: Result) -> Estimate:
     for one in (run, other):
         error += one.estimate(lambda coarser, one=one: apart(one, coarser)).error  # type: ignore[misc]
     return Estimate(far, max(error, SMALLEST["m"]), "m")
-
-
-# --- cost ---
-
-
-def _cost(run: Timed) -> Cost:
-    coarse, half, _ = halvings(run.run)
-    seconds = run.seconds
-    # a step of the next finer run costs as much
-    scatter = abs(seconds - run.half_seconds * coarse.counts.steps / half.counts.steps)
-    if seconds < SHORT_RUN:
-        times = [_run(0, "", coarse.scenario)[1] for _ in range(4)]
-        seconds, scatter = min(times), sorted(times)[2] - min(times)
-    steps = coarse.counts.steps
-    return Cost(seconds, scatter, steps, coarse.counts.user_function_calls / steps)
 
 
 # --- for the summary and for advice ---
@@ -231,16 +210,11 @@ def times_as_long(one: MeasuredScene, other: MeasuredScene) -> float:
     return one.cost.seconds / other.cost.seconds
 
 
-class Timed(NamedTuple):
-    """A run with errors of a case, and the processor times at its steps and at half of them [s]."""
-
-    run: Result
-    seconds: float
-    half_seconds: float
+# --- runs ---
 
 
-def run_timed(cases: Mapping[str, Scenario], workers: int | Workers) -> dict[str, Timed]:
-    """Run every case at its steps, at half and at a quarter of them, in parallel, under a progress bar.
+def run_timed(cases: Mapping[str, Scenario], workers: int | Workers) -> dict[str, tuple[Result, Cost]]:
+    """Run every case at its steps, at half and at a quarter of them, in parallel, and time the first.
 
     Raises SimulationError if a run fails.
     """
@@ -251,11 +225,17 @@ def run_timed(cases: Mapping[str, Scenario], workers: int | Workers) -> dict[str
     for (name, _), (result, _) in zip(jobs, done, strict=True):
         if isinstance(result, Failure):
             raise SimulationError(replace(result, reason=f"{name}: {result.reason}"))
+    found = {}
     thirds = (done[n * len(cases) : (n + 1) * len(cases)] for n in range(3))
-    return {
-        name: Timed(with_coarser([coarse[0], middle[0], fine[0]]), coarse[1], middle[1])
-        for name, fine, middle, coarse in zip(cases, *thirds, strict=True)
-    }
+    for name, fine, middle, (coarse, seconds) in zip(cases, *thirds, strict=True):
+        run = with_coarser([coarse, middle[0], fine[0]])
+        steps, of_half = coarse.counts.steps, halvings(run)[1].counts.steps
+        scatter = abs(seconds - middle[1] * steps / of_half)  # a step of the next finer run costs as much
+        if seconds < SHORT_RUN:
+            times = [_run(0, "", coarse.scenario)[1] for _ in range(4)]
+            seconds, scatter = min(times), sorted(times)[2] - min(times)
+        found[name] = run, Cost(seconds, scatter, steps, coarse.counts.user_function_calls / steps)
+    return found
 
 
 def _run(place: int, name: str, scenario: Scenario) -> tuple[Any, float]:
