@@ -61,7 +61,7 @@ def movie(workers: int, path: Path) -> None:
     """The whole run as a movie."""
     how: dict[str, Any] = {"frames_per_second": MOVIE_RATE, "speed": MOVIE_SPEED, "size": MOVIE_SIZE}
     with TemporaryDirectory() as frames:
-        shutil.move(render(with_clearance(workers), Path(frames) / "frames", **how).movie, path)
+        shutil.move(str(render(with_clearance(workers), Path(frames) / "frames", **how).movie), path)
 
 
 def map_step_stiffness(workers: int) -> Figure:

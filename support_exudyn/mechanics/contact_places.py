@@ -159,9 +159,13 @@ class ContactPlace:
         moving = RelativeMotion(np.zeros_like(x), y, _dot(rate, along), rise, *spins)
         found = series(self.contact, moving, memories)
         force = found.force_x[:, None] * along + found.force_y[:, None] * across
-        ways = {"force_x": force[:, 0], "force_y": force[:, 1]}
-        ways |= {"eccentricity_x": y * across[:, 0], "eccentricity_y": y * across[:, 1]}
-        return replace(found, **ways)
+        return replace(
+            found,
+            force_x=force[:, 0],
+            force_y=force[:, 1],
+            eccentricity_x=y * across[:, 0],
+            eccentricity_y=y * across[:, 1],
+        )
 
     def in_space(self, lateral: float) -> ContactPlace:
         """Return the same contact place at a lateral distance [m] from the middle plane."""

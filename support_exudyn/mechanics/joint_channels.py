@@ -96,7 +96,7 @@ def _of(what: str, unite: Callable[[Series], Series]) -> Callable[[Sections], Se
 
 _SUM: Callable[[Series], Series] = partial(np.sum, axis=0)
 _LARGEST: Callable[[Series], Series] = partial(np.max, axis=0)
-_MEAN: Callable[[Series], Series] = partial(np.mean, axis=0)
+_MEAN: Callable[[Series], Any] = partial(np.mean, axis=0)
 _STATE: Row = ("deflection", "m", "state of the friction law", _of("deflection", _SUM))
 
 

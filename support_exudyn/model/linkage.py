@@ -359,7 +359,7 @@ class Linkage(Value):
 
     def _axes(self, gear: Gear) -> dict[str, float]:
         """The bodies on which pins or guides hold both wheels, each with the distance of the axes [m]."""
-        ends = [one.sides for one in (*self.pins.values(), *self.slides.values())]
+        ends = [sides for (part, _), sides in self.joints.items() if part != "actuators"]
         held = {}
         for wheel in (gear.first, gear.second):
             groups = [{wheel_end} for pair in ends for wheel_end in pair if wheel_end[0] == wheel]

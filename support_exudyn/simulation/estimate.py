@@ -59,8 +59,8 @@ Values = npt.NDArray[np.float64]  # of any shape
 OWN, SLOWEST_OWN = 0.7, 0.35
 OWN_OF_STEPS, SLOWEST_OF_STEPS = 1.0, 0.6
 # share of the distance before that the last is at least, where steps are chosen by a tolerance; and where that
-# is larger than LOOSE: steps are so long then that errors do not fall regularly yet (measured at 1.6e-7: 2 of 100
-# numbers are not covered with CHOSEN, at tighter tolerances 0.4 of 100)
+# is larger than LOOSE: steps are so long then that errors do not fall regularly yet (measured at 1.6e-7: CHOSEN
+# leaves 2 of 100 numbers uncovered, at tighter tolerances 0.4 of 100)
 CHOSEN, CHOSEN_OF_LOOSE, LOOSE = 0.18, 0.4, 1e-7
 ALIKE = 0.5  # of the distances of numbers that go wrong alike, that each is at least
 SAFETY_OF_WORST = 6.0  # covers all of two thousand runs at the extremes (`studies/extremes/run.py`)
