@@ -9,7 +9,7 @@ the command line names it.
 import warnings
 from collections.abc import Sequence
 from difflib import get_close_matches
-from typing import Annotated
+from typing import Annotated, Any
 
 from cyclopts import CycloptsError, Group, Parameter
 
@@ -82,7 +82,7 @@ app = cli.new_app(
     version=_versions,
     version_format="plaintext",
 )
-MARKDOWN = {"help_epilogue": "", "help_format": "markdown"}  # of a single command
+MARKDOWN: dict[str, Any] = {"help_epilogue": "", "help_format": "markdown"}  # of a single command
 for _title, _commands in COMMANDS.items():
     _group = Group.create_ordered(_title)
     for _name, (_module, _does) in _commands.items():

@@ -79,6 +79,7 @@ FIGURES = output(*PICTURES)
 
 def new_app(name: str, about: str, **settings: Any) -> App:
     """A command line that `carry_out` takes; about: its help. settings: more of them, see cyclopts."""
+    given: dict[str, Any] = {"help_format": "markdown", **settings}
     return App(
         name=name,
         help=about,
@@ -87,7 +88,7 @@ def new_app(name: str, about: str, **settings: Any) -> App:
         exit_on_error=False,
         result_action="return_value",
         suppress_keyboard_interrupt=False,
-        **{"help_format": "markdown"} | settings,
+        **given,
     )
 
 

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -209,13 +210,9 @@ def export(
         if kind not in FORMATS:
             raise InputError(f"--to {short(kind)}: no such format; allowed: {', '.join(FORMATS)}")
     usual = every is None and frames_per_second is None
+    chosen = Sampling(every=every, frames_per_second=frames_per_second, after=after, until=until)
     meshes, tables = (
-        Sampling(
-            every=every,
-            frames_per_second=own.frames_per_second if usual else frames_per_second,
-            after=after,
-            until=until,
-        )
+        replace(chosen, frames_per_second=own.frames_per_second) if usual else chosen
         for own in (MESHES, TABLES)
     )
     work: dict[str, Callable[[Progress], tuple[Path, ...]]] = {

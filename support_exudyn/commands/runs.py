@@ -183,7 +183,7 @@ def plot(
     if not runs:
         raise InputError(f"{run}: is no run; allowed: with a run before it, plot RUN {run}")
     asked = {"orbit": orbit, "spectrum": spectrum, "stability": stability}
-    kinds = [kind for kind, is_asked in asked.items() if is_asked]
+    kinds = [kind for kind in asked if asked[kind]]
     if difference and (len(runs) < 2 or curves):
         raise InputError(
             "--difference: needs a second run, and no curves of others; allowed: plot FIRST.h5 SECOND.h5"

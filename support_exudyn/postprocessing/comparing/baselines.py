@@ -128,7 +128,7 @@ def changes(old: KeptRun, new: KeptRun) -> list[RunChange]:
     was, now = columns
     found = []
     for name in dict.fromkeys([*was, *now]):
-        what = "channel" if was.get(name, now.get(name)).time.size else "number"
+        what = "channel" if (was | now)[name].time.size else "number"
         if name not in was or name not in now:
             found.append(RunChange("gone" if name in was else "new", what, name))
         elif was[name].unit != now[name].unit:

@@ -115,14 +115,15 @@ def compared_file(
     """
     mapped = mapped or MappedFile()
     sources = {channel: each.column for channel, each in mapped.columns.items()}
-    read = source
-    if isinstance(read, Path):
+    if isinstance(source, Path):
+        path = source
         wanted = [*channels, *map(glob.escape, sources.values())] if channels else []
         try:
-            read = _read(read, mapped, wanted, progress)
+            read = _read(path, mapped, wanted, progress)
         except InputError:  # read all, so that an error can name the columns
-            read = _read(read, mapped, [], progress)
-    path = source if isinstance(source, Path) else Path(name)
+            read = _read(path, mapped, [], progress)
+    else:
+        path, read = Path(name), source
     if isinstance(read, Result):
         file = ComparedFile(name, path, "run of this program", recorded_columns(read), read)
     else:

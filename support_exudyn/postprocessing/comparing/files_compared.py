@@ -29,13 +29,12 @@ from support_exudyn.postprocessing.comparing.mapping import (
     read_tolerances,
     tolerances_of,
 )
-from support_exudyn.postprocessing.comparing.measures import TimeShift, time_shift
+from support_exudyn.postprocessing.comparing.measures import STATISTICS, TimeShift, time_shift
 from support_exudyn.postprocessing.figures.selection import is_called, matching
 from support_exudyn.postprocessing.figures.units import QUANTITIES
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
 
-STATISTICS = 2  # of each channel after the horizon
 SHOWN = 6  # names that are listed of many
 Comparable = Result | str | Path
 
@@ -176,13 +175,14 @@ def _channel(
     try:
         channel = compared(
             name,
-            *(file.columns[name] for file in files),
+            files[0].columns[name],
+            files[1].columns[name],
             next((each for each in tolerances if is_called(name, each.pattern)), None),
             unit=unit,
             after=pair.after,
             until=pair.until,
             horizon=pair.horizon,
-            among=len(units) * STATISTICS,
+            among=len(units) * len(STATISTICS),
         )
     except InputError as error:
         raise InputError(f"{name} of {files[0].name} and {files[1].name}: {error}") from None

@@ -6,6 +6,7 @@ curves are known at both of its ends. A measure without a value, such as a share
 """
 
 import math
+from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -184,6 +185,11 @@ def _ratio(part: float, whole: float) -> float:
 
 # --- statistics ---
 
+STATISTICS: Mapping[str, Callable[[Values], Values]] = {  # of the rows of (2, n)
+    "mean": lambda values: np.asarray(values.mean(axis=1)),
+    "rms": lambda values: np.asarray(np.sqrt(np.mean(values**2, axis=1))),
+}
+
 
 class StatisticDifference(NamedTuple):
     """A statistic of two curves: of each, second less first, and half of the confidence interval of that.
@@ -220,11 +226,11 @@ def compared_statistics(first: Values, second: Values, among: int = 1) -> dict[s
         return {}
     quantile = float(stats.t.ppf(0.5 + 0.5 * CONFIDENCE ** (1.0 / among), BLOCKS - 1))
     result = {}
-    for name, statistic in (("mean", np.mean), ("rms", lambda each, axis: np.sqrt(np.mean(each**2, axis)))):
-        mine, its = map(float, statistic(both, axis=1))
+    for name, statistic in STATISTICS.items():
+        mine, its = map(float, statistic(both))
         half = math.nan
         if both.shape[1] >= FEWEST * BLOCKS:
-            blocks = np.stack([statistic(block, axis=1) for block in np.array_split(both, BLOCKS, axis=1)])
+            blocks = np.stack([statistic(block) for block in np.array_split(both, BLOCKS, axis=1)])
             half = quantile * float(stats.sem(np.diff(blocks)[:, 0])) + EXACT * float(np.abs(both).max())
         result[name] = StatisticDifference(mine, its, its - mine, half)
     return result

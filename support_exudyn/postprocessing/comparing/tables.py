@@ -140,7 +140,6 @@ def as_data(compared: FilesCompared) -> dict[str, Any]:
 
 
 def _channel_data(channel: ComparedChannel) -> dict[str, Any]:
-    kinds = {name: {**each._asdict(), "equal": each.equal} for name, each in channel.statistics.items()}
     return {
         "unit": channel.unit,
         "verdict": channel.verdict,
@@ -151,7 +150,9 @@ def _channel_data(channel: ComparedChannel) -> dict[str, Any]:
         "largest": channel.largest._asdict(),
         "over_errors": channel.over_errors,
         "measures": channel.measures._asdict(),
-        "statistics": kinds,
+        "statistics": {
+            name: {**each._asdict(), "equal": each.equal} for name, each in channel.statistics.items()
+        },
         "rows": [row._asdict() for row in channel.rows],
     }
 
