@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     from user_forces.contact import JournalContact as JournalContact
     from user_forces.contact import SlipHistory as SlipHistory
     from user_forces.contact import SlotContact as SlotContact
-    from user_forces.face import Face as Face
     from user_forces.friction.law import FrictionLaw as FrictionLaw
     from user_forces.friction.laws import Ambrosio as Ambrosio
     from user_forces.friction.laws import BengisuAkay as BengisuAkay
@@ -33,7 +32,9 @@ if TYPE_CHECKING:
     from user_forces.friction.laws import Stribeck as Stribeck
     from user_forces.friction.laws import Threlfall as Threlfall
     from user_forces.friction.lugre import LuGre as LuGre
+    from user_forces.journal import Face as Face
     from user_forces.journal import JournalBearing as JournalBearing
+    from user_forces.journal import Slot as Slot
     from user_forces.materials import STEEL as STEEL
     from user_forces.materials import STEEL_35CRMO as STEEL_35CRMO
     from user_forces.materials import Material as Material
@@ -73,7 +74,6 @@ if TYPE_CHECKING:
     from user_forces.normal.power_laws import ZhiyingQishao as ZhiyingQishao
     from user_forces.own_laws import friction_law as friction_law
     from user_forces.own_laws import normal_law as normal_law
-    from user_forces.slot import Slot as Slot
     from user_forces.values.value import InputError as InputError
     from user_forces.values.value import Value as Value
     from user_forces.values.value import value as value

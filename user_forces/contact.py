@@ -17,13 +17,11 @@ import numpy as np
 import numpy.typing as npt
 from pydantic import model_validator
 
-from user_forces.face import Face
 from user_forces.friction.law import FrictionLaw
 from user_forces.friction.laws import Frictionless
-from user_forces.journal import ContactGeometry, JournalBearing
+from user_forces.journal import ContactGeometry, Face, JournalBearing, Slot
 from user_forces.kernel import Formula, compiled_or_plain, kernel, numbers
 from user_forces.normal.law import NormalLaw
-from user_forces.slot import Slot
 from user_forces.values.value import Value, value
 
 SHALLOWEST = 1e-30  # depth [m] with which a law is evaluated where there is no contact
@@ -258,27 +256,12 @@ def law_kernel_of(
     its elastic part [N], the friction force [N], and the rate [m/s] of the deflection of a friction law with a
     state. speed: impact velocity [m/s]. constants: largest depth, then the parameters. counts: of these.
     """
-    of_force, of_elastic, of_friction = counts[:3]
-    of_rate = counts[3] if rate_of is not None else 0
+    of_force, of_elastic, of_friction, of_rate = (*counts, 0)[:4]
     at_elastic = 1 + of_force
     at_friction = at_elastic + of_elastic
     at_rate = at_friction + of_friction
 
-    if rate_of is None:
-
-        def law(
-            depth: float, rate: float, slip: float, speed: float, deflection: float, constants: Any
-        ) -> tuple[float, float, float, float]:
-            if depth > constants[0]:
-                return math.nan, math.nan, math.nan, math.nan
-            asked = normal(depth, rate, speed, *numbers(constants, 1, of_force))
-            held = elastic(depth, *numbers(constants, at_elastic, of_elastic))
-            pressed = 0.0 if asked < 0.0 else asked
-            return asked, held, friction(slip, pressed, *numbers(constants, at_friction, of_friction)), 0.0
-
-        return kernel(law)
-
-    def law_with_state(
+    def law(
         depth: float, rate: float, slip: float, speed: float, deflection: float, constants: Any
     ) -> tuple[float, float, float, float]:
         if depth > constants[0]:
@@ -286,11 +269,13 @@ def law_kernel_of(
         asked = normal(depth, rate, speed, *numbers(constants, 1, of_force))
         held = elastic(depth, *numbers(constants, at_elastic, of_elastic))
         pressed = 0.0 if asked < 0.0 else asked
+        if rate_of is None:
+            return asked, held, friction(slip, pressed, *numbers(constants, at_friction, of_friction)), 0.0
         bends = rate_of(deflection, slip, *numbers(constants, at_rate, of_rate))
         rubs = friction(slip, pressed, deflection, *numbers(constants, at_friction, of_friction))
         return asked, held, rubs, bends
 
-    return kernel(law_with_state)
+    return kernel(law)
 
 
 @cache

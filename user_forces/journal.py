@@ -1,4 +1,4 @@
-r"""Geometry of a journal in a bore, in the plane.
+r"""Geometry of what encloses a journal, in the plane: a bore, two walls, or a face.
 
       bore, radius R2, centre O2
     .-----------.
@@ -9,6 +9,16 @@ r"""Geometry of a journal in a bore, in the plane.
  \           '--'  /         n      e / |e|, towards the bore's wall
   '.              .'         t      n turned by +90 degrees
     '-----------'
+
+    ////////////////////////  upper wall
+           . o                o  corner of a block, or centre of a pin of radius r
+             : e              e  its distance from the middle line, upwards positive
+    - - - - -:- - - - - - - -
+                              c  distance at which it makes contact: half the height of the slot, less r
+    ////////////////////////  lower wall
+
+A corner slides freely along its walls, so that only what is across counts as its eccentricity. A point that
+meets a face has one wall, the upper; the line from which its distance counts lies in front of the face.
 """
 
 from __future__ import annotations
@@ -16,28 +26,22 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from user_forces.kernel import kernel
 from user_forces.values.units import Metres
-from user_forces.values.value import Positive, Value, value
+from user_forces.values.value import Positive, Real, Value, value
 
 Kinematics = Callable[..., tuple[float, float, float, float, float, float]]
 
 
 @kernel
 def journal_in_bore(
-    x: float,
-    y: float,
-    vx: float,
-    vy: float,
-    bore_spin: float,
-    journal_spin: float,
-    radius: float,
-    clearance: float,
-) -> tuple[float, float, float, float, float, float]:
+    x: float, y: float, vx: float, vy: float,
+    bore_spin: float, journal_spin: float, radius: float, clearance: float,
+) -> tuple[float, float, float, float, float, float]:  # fmt: skip
     """Kinematics of a journal in its bore.
 
     Arguments:
@@ -63,48 +67,82 @@ def journal_in_bore(
     return depth, nx * vx + ny * vy, slip, nx, ny, arm
 
 
-class ContactGeometry(Value, ABC):
-    """What a journal is enclosed by, and where both make contact.
+@kernel
+def corner_in_slot(
+    x: float, y: float, vx: float, vy: float,
+    bore_spin: float, journal_spin: float, radius: float, clearance: float,
+) -> tuple[float, float, float, float, float, float]:  # fmt: skip
+    """Kinematics of a corner, or of a round pin, between the walls of a slot; returns as `journal_in_bore`.
 
-    clearance: eccentricity at which it makes contact [m]. is_slot: only what is across counts, the journal
-    slides freely along. is_one_sided: only one side of it can be met.
+    Arguments:
+        x: has no effect. y: distance from the middle line [m], upwards positive.
+        vx, vy: rates along and across [m/s], vy less what the turning of the slot moves the walls there.
+        bore_spin, journal_spin: angular velocities of slot and corner [rad/s].
+        radius: of the pin [m], 0 of a corner. clearance: distance from the middle line at contact [m].
+
+    The contact point lies on the surface of corner or pin.
+    """
+    side = 1.0 if y >= 0.0 else -1.0
+    depth = side * y - clearance
+    bore_arm = clearance + depth + radius
+    return depth, side * vy, -side * vx + journal_spin * radius - bore_spin * bore_arm, 0.0, side, radius
+
+
+@kernel
+def point_on_face(
+    x: float, y: float, vx: float, vy: float,
+    bore_spin: float, journal_spin: float, radius: float, clearance: float,
+) -> tuple[float, float, float, float, float, float]:  # fmt: skip
+    """Kinematics of a point that meets a face from one side: `corner_in_slot` with the upper wall alone.
+
+    clearance: distance of the face from the line [m]. radius: has no effect. The contact point is the point.
+    """
+    return y - clearance, vy, -vx - bore_spin * y, 0.0, 1.0, 0.0
+
+
+class ContactGeometry(Value, ABC):
+    """What a journal is enclosed by, and where both make contact; here with straight walls.
+
+    clearance: eccentricity at which it makes contact [m]. radius: of a bore, or of a pin between walls [m].
+    kinematics: kernel of the contact's kinematics, which takes `constants` last. is_slot: only what is across
+    counts, the journal slides freely along. is_one_sided: only one side of it can be met.
     """
 
     clearance: float
-    is_slot: ClassVar[bool] = False
+    radius: float
+    kinematics: ClassVar[Kinematics]
+    is_slot: ClassVar[bool] = True
     is_one_sided: ClassVar[bool] = False
 
     @property
-    @abstractmethod
-    def kinematics(self) -> Kinematics:
-        """The kernel of the contact's kinematics; `constants` are what it takes last."""
-
-    @property
     def constants(self) -> tuple[float, float]:
-        """Size of the bore or pin [m] and clearance [m], as `kinematics` takes them."""
-        return self.size, self.clearance
+        """Radius [m] and clearance [m], as `kinematics` takes them."""
+        return self.radius, self.clearance
 
     def depth(self, eccentricity: float) -> float:
         """Depth |e| - c [m] for an eccentricity |e| [m] (Eq. 3 of the paper); negative: a gap."""
         return eccentricity - self.clearance
 
     @property
-    @abstractmethod
     def size(self) -> float:
-        """Length [m] beside which a depth has to be small."""
+        """Length [m] against which a depth has to be small: half the height of a slot."""
+        return self.clearance + self.radius
 
     @property
     @abstractmethod
     def words(self) -> str:
         """What encloses the journal, with its size."""
 
-    @abstractmethod
     def placed(self, depth: float, rate: float, slip: float) -> tuple[float, ...]:
         """A motion, as `kinematics` takes it first, with this depth [m], rate [m/s] and slip [m/s]."""
+        return 0.0, self.clearance + depth, -slip, rate, 0.0, 0.0
 
-    @abstractmethod
     def contact_arms(self, depth: float) -> tuple[float, float]:
-        """Distances [m] of the contact point from the centres of bore and journal, both along n."""
+        """Distances [m] of the contact point from the centres of bore and journal, both along n.
+
+        Between walls, from the middle line and from the pin's centre: there both bodies feel the force.
+        """
+        return self.clearance + depth + self.radius, self.radius
 
 
 @value
@@ -118,6 +156,8 @@ class JournalBearing(ContactGeometry):
 
     bore_radius: Metres[Positive]
     clearance: Metres[Positive]
+    kinematics: ClassVar[Kinematics] = staticmethod(journal_in_bore)
+    is_slot: ClassVar[bool] = False
 
     @model_validator(mode="after")
     def _journal_has_a_radius(self) -> JournalBearing:
@@ -134,6 +174,11 @@ class JournalBearing(ContactGeometry):
         return self.bore_radius - self.clearance
 
     @property
+    def constants(self) -> tuple[float, float]:
+        """Radius of the bore [m] and clearance [m]."""
+        return self.bore_radius, self.clearance
+
+    @property
     def size(self) -> float:
         """The bore's radius [m]."""
         return self.bore_radius
@@ -142,11 +187,6 @@ class JournalBearing(ContactGeometry):
     def words(self) -> str:
         """The bore, with its radius."""
         return f"a bore of {1e3 * self.bore_radius:.4g} mm radius"
-
-    @property
-    def kinematics(self) -> Kinematics:
-        """See `journal_in_bore`."""
-        return journal_in_bore
 
     def placed(self, depth: float, rate: float, slip: float) -> tuple[float, ...]:
         """A motion, as `kinematics` takes it first, with this depth [m], rate [m/s] and slip [m/s]."""
@@ -160,3 +200,59 @@ class JournalBearing(ContactGeometry):
         """
         bore_arm = self.bore_radius + 0.5 * depth
         return bore_arm, bore_arm - depth - self.clearance
+
+
+@value
+class Slot(ContactGeometry):
+    """Two walls, and the corner or the pin between them; x lies along the walls and y across.
+
+    Arguments:
+        clearance: distance from the middle line at which it makes contact [m], > 0.
+        radius: of the pin [m], >= 0; 0: a corner.
+    """
+
+    clearance: Metres[Positive]
+    radius: Metres[Annotated[Real, Field(ge=0)]] = 0.0
+    kinematics: ClassVar[Kinematics] = staticmethod(corner_in_slot)
+
+    @property
+    def words(self) -> str:
+        """The slot, with half its height."""
+        return f"a wall of a slot of {1e3 * self.size:.4g} mm half height"
+
+
+@value
+class Face(ContactGeometry):
+    """A straight face, and the point that meets it from one side; x lies along the face and y across.
+
+    y counts from a line in front of the face: from the face itself it would have no direction where the contact
+    begins. A point in front of the face is free however far away it is.
+
+    Arguments:
+        clearance: distance of that line from the face, as large as what is behind the face [m], > 0.
+    """
+
+    clearance: Metres[Positive]
+    radius: ClassVar[float] = 0.0
+    kinematics: ClassVar[Kinematics] = staticmethod(point_on_face)
+    is_one_sided: ClassVar[bool] = True
+
+    @property
+    def words(self) -> str:
+        """What is behind the face, with its size."""
+        return f"the face of a block of {1e3 * self.size:.4g} mm"
+
+
+@kernel
+def larger_load(across: float, moment: float, half_length: float) -> float:
+    """The larger of a guide's force across a block and of the pair that its moment is at the ends [N]."""
+    return max(abs(across), abs(moment) / half_length)
+
+
+@kernel
+def end_loads(
+    across: float, moment: float, ratio: float, half_length: float, half_height: float
+) -> tuple[float, float]:
+    """What presses the ends of a block on the walls [N], see `IdealGuide`; ratio: of friction to load."""
+    apart = (moment - ratio * across * half_height) / half_length
+    return 0.5 * abs(across + apart), 0.5 * abs(across - apart)

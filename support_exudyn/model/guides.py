@@ -24,10 +24,10 @@ from support_exudyn.model.pins import fields_of, friction_of, law_with
 from user_forces.contact import FaceContact, SlotContact
 from user_forces.friction.law import FrictionLaw
 from user_forces.friction.laws import Frictionless
+from user_forces.journal import Slot, end_loads, larger_load
 from user_forces.materials import STEEL, STEEL_35CRMO, Material, plane_contact_stiffness
 from user_forces.normal.law import NormalLaw
 from user_forces.normal.power_laws import Exact
-from user_forces.slot import Slot, end_loads, larger_load
 from user_forces.values.units import Metres
 from user_forces.values.value import InputError, NonNegative, Positive, Value, Vector2, short, value
 

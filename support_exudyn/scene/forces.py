@@ -17,10 +17,8 @@ from support_exudyn.scene.hydraulics.leg import powers_of
 from support_exudyn.scene.hydraulics.records import LegArrays
 from support_exudyn.scene.motion import push, push_point, spin_of, turn_of
 from user_forces.contact import SHALLOWEST
-from user_forces.face import point_on_face
-from user_forces.journal import journal_in_bore
+from user_forces.journal import corner_in_slot, journal_in_bore, point_on_face
 from user_forces.lawful import ROUNDING
-from user_forces.slot import corner_in_slot
 
 
 @inlined

@@ -9,7 +9,7 @@ import math
 from support_exudyn.scene.arrays import BLOCK, BOLT, SceneArrays, Vector
 from support_exudyn.scene.compilation import call_law, compiled, once
 from support_exudyn.scene.motion import SETTLED, push, push_point, solve, spin_of, turn_of
-from user_forces.slot import end_loads, larger_load
+from user_forces.journal import end_loads, larger_load
 
 RUBBINGS = 30  # rounds at most
 JAMMED = 1e-6  # share that is still open after all rounds, from which on friction and force have no solution

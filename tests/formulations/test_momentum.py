@@ -26,7 +26,7 @@ from user_forces import (
     Slot,
     SlotContact,
 )
-from user_forces.connector.attachment import SHARE, Attachment, attachment, compiled_kernel, connector_kernel
+from user_forces.connector.item import SHARE, Attachment, compiled_kernel, connector_kernel
 from user_forces.contact import Contact
 
 Bore = Literal["first", "second"]
@@ -119,7 +119,6 @@ def test_momentum_is_kept_while_the_bodies_turn_against_each_other() -> None:
 
 BEARING = JournalBearing(bore_radius=0.02, clearance=0.001)
 BOUNCY = LankaraniNikravesh(stiffness=1e9, restitution=0.9)
-NEARLY = Ambrosio(sliding_coefficient=1e-12)  # no friction, but the connector of one
 BRISTLES = LuGre(static_coefficient=0.3, sliding_coefficient=0.2)
 
 
@@ -129,23 +128,6 @@ def of_friction(friction: FrictionLaw = Frictionless()) -> JournalContact:  # no
 
 SLOT = SlotContact(bearing=Slot(clearance=0.001, radius=0.02), normal=BOUNCY, friction=BRISTLES)
 HALF_TURN = 0.3  # [rad], of the connector's axes against the bore's
-
-
-@pytest.mark.parametrize(
-    ("of", "ends", "expected"),
-    [
-        (of_friction(), (True, False), Attachment.CENTRES),
-        (of_friction(), (False, False), Attachment.CENTRES),
-        (of_friction(NEARLY), (True, False), Attachment.JOURNAL),
-        (of_friction(NEARLY), (False, True), Attachment.BORE),
-        (of_friction(NEARLY), (False, False), Attachment.MIDDLE),
-        (replace(SLOT, friction=Frictionless()), (False, False), Attachment.MIDDLE),
-    ],
-)
-def test_the_force_acts_where_friction_and_ground_let_it(
-    of: Contact, ends: tuple[bool, bool], expected: Attachment
-) -> None:
-    assert attachment(of, *ends) is expected
 
 
 @pytest.mark.parametrize("at", [Attachment.JOURNAL, Attachment.BORE, Attachment.MIDDLE])

@@ -32,7 +32,7 @@ from support_exudyn.model.spatial_linkage import (
     SpatialBody,
     SpatialLinkage,
 )
-from user_forces.connector.attachment import Attachment
+from user_forces.connector.item import Attachment
 
 unit = st.floats(-1.0, 1.0, allow_subnormal=False)
 vectors = st.tuples(unit, unit, unit)

@@ -24,7 +24,7 @@ from user_forces import (
     normal_law,
     value,
 )
-from user_forces.connector.attachment import Attachment, compiled_kernel
+from user_forces.connector.item import Attachment, compiled_kernel
 from user_forces.contact import ContactForce, SlipHistory
 from user_forces.kernel import kernel, limited, sign
 from user_forces.lawful import LawError, check_laws, look

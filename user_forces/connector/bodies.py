@@ -12,8 +12,7 @@ import numpy.typing as npt
 
 from user_forces.connector.item import OUTPUT, JointItem, Mount
 from user_forces.contact_state import InverseMass
-from user_forces.journal import JournalBearing
-from user_forces.slot import Slot
+from user_forces.journal import JournalBearing, Slot
 from user_forces.values.value import InputError
 
 Array = npt.NDArray[np.float64]

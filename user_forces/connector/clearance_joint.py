@@ -28,9 +28,8 @@ from user_forces.contact_state import InverseMass, Onset
 from user_forces.friction.law import FrictionLaw
 from user_forces.friction.laws import Frictionless
 from user_forces.impact_steps import ImpactSteps
-from user_forces.journal import JournalBearing
+from user_forces.journal import JournalBearing, Slot
 from user_forces.normal.law import NormalLaw
-from user_forces.slot import Slot
 from user_forces.values.value import InputError
 
 REPEAT = 1e6  # error above any tolerance of the engine's discontinuous iteration: the step is repeated
@@ -75,7 +74,6 @@ class EngineContact(ContactConnector):
             contact,
             bore_mount,
             journal_mount,
-            0.0,
             is_round=any(mbs.GetObject(body)["objectType"] == SPATIAL for body in (bore[0], journal[0])),
             nodeNumber=self.node,
             postNewtonStepUserFunction=self._post_newton,
@@ -114,7 +112,7 @@ class EngineContact(ContactConnector):
         """The user function, which sees where the engine begins to try another step."""
         if t != self._end and not self.is_driven:
             self._begin(t)
-        return self.user_function(mbs, t, *motion)
+        return self.item.moved(mbs, t, *motion)
 
     def _begin(self, t: float) -> None:
         """Begin to try a step to t [s] from the last accepted state."""

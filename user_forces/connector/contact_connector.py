@@ -12,11 +12,10 @@ from typing import Any
 
 import numpy as np
 
-from user_forces.connector.attachment import connector_kernel
 from user_forces.connector.friction_line import FrictionLine, can_be_line, with_line
-from user_forces.connector.item import INITIAL, JointItem
+from user_forces.connector.item import INITIAL, JointItem, connector_kernel
 from user_forces.contact import ContactForce
-from user_forces.contact_events import Action, Verdict, goes_on, judge, judge_at_ends
+from user_forces.contact_events import Action, goes_on, judge, judge_at_ends
 from user_forces.contact_state import InverseMass, Onset, PinMemory
 from user_forces.impact_steps import ImpactSteps
 from user_forces.lawful import PROBED, look
@@ -53,20 +52,15 @@ class ContactConnector:
         self.item, self.contact, self.find_inverse_mass = item, item.contact, find_inverse_mass
         self.locates, self.share = locates, share
         self.impact_steps = ImpactSteps(self.contact.normal, impact_steps)
-        self.user_function = item.own_force()
         self.elastic_force = self.contact.normal.elastic_force
         self._force = self.contact.force_kernel
         self._has_state = self.contact.friction.has_state
         self._line: FrictionLine | None = None  # that stands for steep friction
         # at the last accepted step
         self.kept = PinMemory(False, 0.0, 0.0, 0.0)
-        self._turn = 0.0  # between the marker frames [rad]
-        self._turn_rate = 0.0  # [rad/s]
+        self._turn = self._turn_rate = 0.0  # between the marker frames [rad], [rad/s]
         self._swing_step = math.inf  # see `longest_step`
-        self._inverse_mass, self._lightest = (
-            NOT_KNOWN,
-            NOT_KNOWN.lightest,
-        )  # at the last impact; least mass [kg]
+        self._inverse_mass, self._lightest = NOT_KNOWN, math.nan  # at the last impact; least mass [kg]
         # the step being tried
         self.memory = self.kept  # with which its force is computed
         self.reached = self.memory  # at its end
@@ -84,11 +78,6 @@ class ContactConnector:
         self._went_on_from: PinMemory | None = None  # of a step just accepted in which the contact lasted
 
     @property
-    def calls(self) -> int:
-        """Evaluations of the user function."""
-        return self.user_function.calls
-
-    @property
     def longest_step(self) -> float:
         """The longest step [s] in the present impact, or for what friction holds at the end of the last."""
         return min(self.impact_steps.step, self._swing_step) if self._has_state else self.impact_steps.step
@@ -100,6 +89,10 @@ class ContactConnector:
             x, y, _ = self.item.relative().displacement
             self._place = x, y
         return self._place
+
+    def mass_place(self) -> tuple[float, float]:
+        """The place [m] in the bore whose direction effective masses are of."""
+        return self.place
 
     def observe(self, state: Any) -> ContactForce:
         """Kinematics of the contact in a state of the engine, as if the surfaces were separated."""
@@ -127,7 +120,7 @@ class ContactConnector:
         speed = max(0.0, rate) if closed else 0.0
         self.kept = self.reached = PinMemory(closed, speed, depth, rate, slip)
         self._swing_step, self._size, self._went_on_from = math.inf, 0.0, None
-        self._weigh(inverse_mass)
+        self._inverse_mass, self._lightest = inverse_mass, inverse_mass.lightest
 
     def jumped(self, memory: PinMemory) -> None:
         """Velocities have jumped after the last step; the memory since then."""
@@ -143,44 +136,74 @@ class ContactConnector:
             self._turn -= expected
         self._recall(self.kept)
 
+    def _recall(self, memory: PinMemory) -> None:
+        """Let the force of the step being tried follow from a memory, and from the line if there is any."""
+        self.memory, item = memory, self.item
+        item.closed, item.speed = memory.in_contact, memory.impact_velocity
+        if self._has_state:
+            item.deflection, item.slip, item.step = memory.deflection, memory.slip, self._step
+        if self._line is not None:
+            item.constants[-2:] = self._line.offset, self._line.slope
+
     def after_newton(self, t: float) -> float | None:
         """Decide on a solved step that would end at t [s]: None if it may stand.
 
         Else with which length [s] it is to be repeated; infinite: with the same, for the force has changed.
         """
         # the residual that satisfied Newton's method was evaluated at this same state
-        result, start = self.user_function.last, self.memory
+        result, start, line = self.item.last, self.memory, self._line
         self.force = force = tuple.__new__(ContactForce, result[FIRST:LAST])
         self._place = None if self.item.on_line else (result[LAST], result[LAST + 1])
         depth, rate, slip, normal, friction, *_, deflection = force
         if not -math.inf < normal + friction < math.inf:
             look(self.contact, depth, rate, slip, normal, friction)
-        if self._line is not None and start.in_contact and (again := self._check_line(self._line)) is not None:
-            self._recall(start)
-            return again
+        if line is not None and start.in_contact:
+            softness = normal * self._step / self._lightest
+            if not line.meets(slip, normal, softness):
+                self._recall(start)
+                return 0.5 * self._step if line.exhausted else math.inf
         if goes_on(start, depth, rate, self._step):
             self.reached = start.at(depth, rate, slip, deflection)
             return None
-        return self._decided(start, self._verdict(start, t))
+        step = start, depth, rate, t, self._step
+        action, memory, onset, shorter, landing = (
+            judge(*step, self._impact_step) if self.locates else judge_at_ends(*step)
+        )
+        if action is Action.CUT:
+            self.wants_cut, self.landing = True, landing
+            return shorter
+        if onset is not None:
+            self.onset = onset
+            self._inverse_mass = self.find_inverse_mass()
+            self._lightest = self._inverse_mass.lightest
+        if action is Action.REPEAT:
+            self._recall(memory._replace(deflection=0.0))
+            return math.inf
+        self.reached = memory.slid(slip, deflection if memory.in_contact and onset is None else 0.0)
+        return None
+
+    def _impact_step(self, speed: float) -> float:
+        """Length of the steps [s] in an impact of this speed [m/s] that begins where the journal is."""
+        return self.impact_steps.length(speed, self.find_inverse_mass().mass(*self.mass_place()))
 
     def accept(self, t: float) -> None:
         """Keep what happened in a step that ends at t [s] and stands."""
         start, onset = self.kept, self.onset
         self._went_on_from = start if self.memory.in_contact and onset is None else None
         self.kept = reached = self.reached
-        self._turn, self._turn_rate = self.user_function.turn
+        self._turn, self._turn_rate = self.item.turn
         if not reached.in_contact:
             if self._line is not None:
                 self._line = None
-                self.user_function.use()
+                self.item.use()
             if start.in_contact and self.onsets:
                 self.onsets[-1] = self.onsets[-1].separated(t, -reached.rate)
         if self.locates:
             steps, depth, rate = self.impact_steps, reached.depth, reached.rate
             if onset is not None:
-                steps.impact(depth, rate, self._find_least_mass())
+                steps.impact(depth, rate, self._mass())
             else:
-                steps.follow(depth, rate, self._lightest, self._find_least_mass)
+                steps.follow(depth, rate, self._lightest, self._mass)
             if self._has_state:
                 self._swing_step = steps.swing_step(self._swing_time())
         if onset is not None:
@@ -188,17 +211,27 @@ class ContactConnector:
             self.onset = None
         self._look_for_largest(t)
 
+    def _mass(self) -> float:
+        """Mass [kg] that moves at least as the depth does, where the journal is now."""
+        return self._inverse_mass.mass(*self.mass_place())
+
+    def _swing_time(self) -> float:
+        """The time of the swing of what friction holds, with the least mass that moves along the surface [s].
+
+        It is that of the journal's centre. Its turning adds little: pins are thin against what they join.
+        """
+        force = self.force.normal_force
+        if force == 0.0:
+            return math.inf
+        x, y = self.mass_place()
+        return self.contact.friction.swing_time(self._inverse_mass.mass(-y, x), force / self.share)
+
     def begin_impact(self) -> None:
         """Let the depth of a closed joint oscillate from now on: at the start, or after a jump of speed."""
         if self.locates and self.kept.depth > 0.0:
-            self.impact_steps.begin(self.kept.depth, self.kept.rate, self._find_least_mass())
+            self.impact_steps.begin(self.kept.depth, self.kept.rate, self._mass())
 
-    def act_without_memory(self, impact_velocity: float) -> None:
-        """Let the force act whenever there is depth, as for an impact with this speed [m/s].
-
-        For recipes that do without `begin_try`, `after_newton` and `accept`.
-        """
-        self._recall(self.kept._replace(in_contact=True, impact_velocity=impact_velocity))
+    # --- where a run could not go on ---
 
     def straighten(self) -> bool:
         """Newton's method has failed: let a straight line stand for friction; whether that is new."""
@@ -208,7 +241,7 @@ class ContactConnector:
         self._line.lay(self.kept.slip, self.force.normal_force)
         kernel, constants = with_line(self.contact)
         in_axes = connector_kernel(kernel, self.item.at, self.contact.bearing.is_slot)
-        self.user_function.use(in_axes, np.array(constants))
+        self.item.use(in_axes, np.array(constants))
         return True
 
     def rounding(self, step: float, size: float) -> float:
@@ -230,82 +263,6 @@ class ContactConnector:
             normal = contact.normal(depth, memory.rate, memory.impact_velocity)
             friction = contact.friction(slip, max(0.0, normal), memory.deflection)
             look(contact, depth, memory.rate, slip, normal, friction, pin=name)
-
-    # --- decisions on a step ---
-
-    def _check_line(self, line: FrictionLine) -> float | None:
-        """With which length [s] a step is to be repeated if the line does not meet the law; None if it does."""
-        force, softness = self.force, self.force.normal_force * self._step / self._lightest
-        if line.meets(force.slip, force.normal_force, softness):
-            return None
-        return 0.5 * self._step if line.exhausted else math.inf
-
-    def _decided(self, start: PinMemory, verdict: Verdict) -> float | None:
-        """The answer to the engine that follows from a verdict."""
-        if verdict.action is Action.CUT:
-            self.wants_cut = True
-            self.landing = verdict.landing
-            return verdict.step
-        memory = self._completed(verdict)
-        if verdict.onset is not None:
-            self.onset = verdict.onset
-        if verdict.action is Action.REPEAT:
-            self._recall(memory)
-            return math.inf
-        self.reached = memory
-        return None
-
-    def _verdict(self, start: PinMemory, end_time: float) -> Verdict:
-        """Whether the step that has been tried may stand."""
-        step = (start, self.force.depth, self.force.rate, end_time, self._step)
-        return judge(*step, self._impact_step) if self.locates else judge_at_ends(*step)
-
-    def _impact_step(self, speed: float) -> float:
-        """Length of the steps [s] in an impact of this speed [m/s] that begins where the journal is."""
-        return self.impact_steps.length(speed, self.find_inverse_mass().mass(*self._mass_place()))
-
-    def _completed(self, verdict: Verdict) -> PinMemory:
-        """The verdict's memory with what the laws need besides."""
-        memory = verdict.memory
-        if verdict.onset is not None:
-            self._weigh(self.find_inverse_mass())
-        if verdict.action is Action.REPEAT:
-            return memory._replace(deflection=0.0)
-        sticks = memory.in_contact and verdict.onset is None
-        return memory.slid(self.force.slip, self.force.deflection if sticks else 0.0)
-
-    def _weigh(self, inverse_mass: InverseMass) -> None:
-        """Let steps follow an inverse effective mass from now on."""
-        self._inverse_mass, self._lightest = inverse_mass, inverse_mass.lightest
-
-    def _find_least_mass(self) -> float:
-        """Mass [kg] that moves at least as the depth does, where the journal is now."""
-        return self._inverse_mass.mass(*self._mass_place())
-
-    def _mass_place(self) -> tuple[float, float]:
-        """The place [m] in the bore whose direction effective masses are of."""
-        return self.place
-
-    def _swing_time(self) -> float:
-        """The time of the swing of what friction holds, with the least mass that moves along the surface [s].
-
-        It is that of the journal's centre. Its turning adds little: pins are thin against what they join.
-        """
-        force = self.force.normal_force
-        if force == 0.0:
-            return math.inf
-        x, y = self._mass_place()
-        return self.contact.friction.swing_time(self._inverse_mass.mass(-y, x), force / self.share)
-
-    def _recall(self, memory: PinMemory) -> None:
-        """Let the force of the step being tried follow from a memory, and from the line if there is any."""
-        self.memory = memory
-        function = self.user_function
-        function.closed, function.speed = memory.in_contact, memory.impact_velocity
-        if self._has_state:
-            function.deflection, function.slip, function.step = memory.deflection, memory.slip, self._step
-        if self._line is not None:
-            function.constants[-2:] = self._line.offset, self._line.slope
 
     # --- the largest force ---
 

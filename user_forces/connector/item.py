@@ -1,17 +1,24 @@
-"""The engine's side of a clearance joint: two markers and a connector between them.
+"""The engine's side of a clearance joint: two markers, a connector between them, and its user function.
 
-Without friction it is a spring-damper between both points, whose force acts along the line of centres.
+The engine hands over the motion of the journal's marker against the bore's in the bore's axes, and takes force
+and moment in the same axes. The force acts
 
-With friction it is the rigid-body connector, and if both bodies move the intrinsic one, whose force acts midway
-between both marker points. It conserves angular momentum only while both marker frames are parallel: turned by
-an angle a against each other, the arm of the force is longer by (a/2)/sin(a/2). The journal's marker frame is
-therefore turned along, so that a stays small.
+- without friction on both centres, along the line of centres: no moment (unless the journal may move along the
+  axis of its bore, where only the distance across counts);
+- with friction on the centre of the body that moves, if the other is the ground;
+- in the middle between both centres, if both move, so that both feel the force at the same point of space.
+
+The last is Exudyn's intrinsic formulation, whose axes lie in the middle between both marker frames. Its
+displacement is longer than the distance of the points by (a/2)/sin(a/2), a the angle between these frames, and
+so is the arm of the force. The journal's marker frame is turned along, so that a stays small.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from enum import Enum
+from functools import cache
 from typing import Any, NamedTuple
 
 import exudyn
@@ -25,17 +32,120 @@ from exudyn.itemInterface import (
     VObjectConnectorSpringDamper,
 )
 
-from user_forces.connector.attachment import Attachment, attachment
-from user_forces.connector.user_function import ConnectorForce, LineForce
 from user_forces.contact import Contact
+from user_forces.friction.laws import Frictionless
+from user_forces.kernel import compiled_or_plain
 
 # Largest turn between the marker frames before they are lined up again [rad]: the displacement is then
 # right within 4e-10 of itself, and the rest is corrected.
 FRAME_TURN = 1e-4
 OUTPUT = exudyn.OutputVariableType
 CURRENT, INITIAL = exudyn.ConfigurationType.Current, exudyn.ConfigurationType.Initial
+KINDS = (OUTPUT.Position, OUTPUT.Velocity, OUTPUT.RotationMatrix, OUTPUT.AngularVelocity)
 Frame = list[list[float]]
 Array = npt.NDArray[np.float64]
+
+
+class Attachment(Enum):
+    """Where the force of a clearance joint acts; share: of the way from there to the journal's centre."""
+
+    CENTRES = "both centres, along the line of centres"
+    JOURNAL = "the journal's centre; the bore is on the ground"
+    BORE = "the bore's centre; the journal is on the ground"
+    MIDDLE = "both bodies, in the middle between the centres"
+
+
+SHARE = {Attachment.CENTRES: 0.0, Attachment.JOURNAL: 0.0, Attachment.MIDDLE: 0.5, Attachment.BORE: 1.0}
+
+
+def attachment(
+    contact: Contact, bore_on_ground: bool, journal_on_ground: bool, is_round: bool = False
+) -> Attachment:
+    """Where the force of a contact acts.
+
+    is_round: whether only what is across the bore's axis counts, as in a model in space that leaves the journal
+    free along the axis.
+    """
+    if isinstance(contact.friction, Frictionless) and not contact.bearing.is_slot and not is_round:
+        return Attachment.CENTRES
+    if bore_on_ground:
+        return Attachment.JOURNAL
+    return Attachment.BORE if journal_on_ground else Attachment.MIDDLE
+
+
+# --- the force in the connector's axes ---
+
+
+def connector_kernel(force: Callable[..., Any], at: Attachment, is_slot: bool) -> Callable[..., Any]:
+    """A contact's force kernel in the connector's axes, see `JointItem.kernel` for its arguments.
+
+    It gives force (3) and moment of the connector [N], [N m], then `ContactForce`, then x and y [m].
+
+    Arguments:
+        force: see `force_kernel_of`.
+        at: where it acts. is_slot: whether only what is across the slot counts.
+    """
+    share, middle, bore = SHARE[at], at is Attachment.MIDDLE, at is Attachment.BORE
+    on_centres = at is Attachment.CENTRES
+
+    def connector(
+        x: float, y: float, z: float, vx: float, vy: float, vz: float, turn: float, turning: float,
+        bore_spin: float, closed: bool, speed: float, deflection: float, slip: float, step: float,
+        constants: Any,
+    ) -> Any:  # fmt: skip
+        memory = closed, speed, deflection, slip, step, constants
+        if on_centres:
+            distance = math.sqrt(x * x + y * y + z * z)
+            if distance == 0.0:
+                return 0.0, 0.0, 0.0, 0.0, *force(0.0, 0.0, vx, vy, 0.0, 0.0, *memory), x, y
+            rate = (x * vx + y * vy + z * vz) / distance
+            result = force(distance, 0.0, rate, 0.0, 0.0, 0.0, *memory)
+            pull = result[3] / distance
+            return pull * x, pull * y, pull * z, 0.0, *result, x, y
+        c, s, along = 1.0, 0.0, 0.0
+        if middle:
+            square = 0.25 * turn * turn  # sin(a/2)/(a/2) by its series
+            scale = 1.0 - square / 6.0 * (1.0 - square / 20.0 * (1.0 - square / 42.0))
+            x, y = scale * x, scale * y
+        if bore:
+            bore_spin = -turning
+        if is_slot:
+            if middle:  # the connector's axes are half of the turn from those of the slot
+                c, s = math.cos(0.5 * turn), math.sin(0.5 * turn)
+                x, y, vx, vy = c * x - s * y, s * x + c * y, c * vx - s * vy, s * vx + c * vy
+            along, x, vy = x, 0.0, vy - bore_spin * x  # the walls turn, and so move across at the corner
+        result = force(x, y, vx, vy, bore_spin, bore_spin + turning, *memory)
+        fx, fy, friction = result[5], result[6], result[4]
+        arm = result[7] + share * math.sqrt(x * x + y * y)
+        moment = -share * along * fy - arm * friction
+        return -c * fx - s * fy, s * fx - c * fy, 0.0, moment, *result, x, y
+
+    return connector
+
+
+@cache
+def compiled_kernel(force: Callable[..., Any], at: Attachment, is_slot: bool) -> Callable[..., Any]:
+    """`connector_kernel` as machine code, or in Python if numba cannot compile the laws."""
+    plain = connector_kernel(force, at, is_slot)
+    return compiled_or_plain(plain, (*9 * (0.0,), False, *4 * (0.0,), np.zeros(1)))
+
+
+@cache
+def compiled_line_kernel(force: Callable[..., Any]) -> Callable[..., Any]:
+    """A force kernel without friction for a connector that knows depth and rate alone, as machine code.
+
+    It gives what `connector_kernel` gives, the force along the line of centres first.
+    """
+
+    def line(depth: float, rate: float, closed: bool, speed: float, constants: Any) -> Any:
+        distance = constants[1] + depth
+        result = force(distance, 0.0, rate, 0.0, 0.0, 0.0, closed, speed, 0.0, 0.0, 0.0, constants)
+        return result[3], 0.0, 0.0, 0.0, *result, distance, 0.0
+
+    return compiled_or_plain(line, (0.0, 0.0, False, 0.0, np.zeros(1)))
+
+
+# --- markers and connector ---
 
 
 class Mount(NamedTuple):
@@ -70,57 +180,94 @@ class JointItem:
         mbs: the engine's system.
         contact: bearing and laws, from which follows where the force acts.
         bore, journal: where they are.
-        turn: of the journal's frame relative to the bore's about the axis [rad].
         is_round: whether only the distance across the axis counts, see `attachment`.
         options: of the connector, such as a post-Newton step for the stock solver.
+
+    The force depends on the motion and on these: closed, speed: whether the surfaces are in contact, and the
+    velocity of their impact [m/s]. deflection [m], slip [m/s], step [s]: of a friction law with a state at the
+    start of the step, and its length. last: what the kernel gave last. turn: between the marker frames then
+    [rad], [rad/s]. along: of the journal's marker along the axis [m], [m/s]. calls: of the user function.
     """
 
     def __init__(
-        self,
-        mbs: Any,
-        contact: Contact,
-        bore: Mount,
-        journal: Mount,
-        turn: float,
-        is_round: bool = False,
-        **options: Any,
+        self, mbs: Any, contact: Contact, bore: Mount, journal: Mount, is_round: bool = False, **options: Any
     ) -> None:
         self.mbs, self.contact = mbs, contact
-        self.clearance = contact.bearing.clearance
         self.at = attachment(contact, bore.on_ground, journal.on_ground, is_round)
         self._bore, self._journal = np.array(bore.frame), np.array(journal.frame)
-        self._shift = 0.0
-        self._frame_turn = -turn if self.at is Attachment.MIDDLE else 0.0  # of the journal's frame [rad]
+        self._shift = self._frame_turn = 0.0  # of the journal's frame along and about the axis [m], [rad]
         self.bore_marker = mbs.AddMarker(MarkerBodyRigid(bodyNumber=bore.item, localHT=bore.frame))
-        self.journal_marker = mbs.AddMarker(MarkerBodyRigid(bodyNumber=journal.item, localHT=self._frame()))
-        # a spring-damper between two points has no post-Newton step
+        self.journal_marker = mbs.AddMarker(MarkerBodyRigid(bodyNumber=journal.item, localHT=journal.frame))
+        markers = [self.bore_marker, self.journal_marker]
+        # Without friction a spring-damper between both points costs the engine less than two frames; its
+        # stretch is the depth. It has no post-Newton step.
         self.on_line = self.at is Attachment.CENTRES and not options
-        self.object = mbs.AddObject(self._connector([self.bore_marker, self.journal_marker], options))
-
-    def _connector(self, markers: list[Any], options: dict[str, Any]) -> Any:
-        if self.on_line:  # what it is stretched by is the depth
-            hidden = VObjectConnectorSpringDamper(show=False)
-            return ObjectConnectorSpringDamper(
-                markerNumbers=markers, referenceLength=self.clearance, visualization=hidden
+        connector: Any
+        if self.on_line:
+            connector = ObjectConnectorSpringDamper(
+                markerNumbers=markers,
+                referenceLength=contact.bearing.clearance,
+                visualization=VObjectConnectorSpringDamper(show=False),
             )
-        return ObjectConnectorRigidBodySpringDamper(
-            markerNumbers=markers,
-            useIntrinsicFormulation=self.at is Attachment.MIDDLE,
-            visualization=VObjectConnectorRigidBodySpringDamper(show=False),
-            **options,
-        )
-
-    def own_force(self) -> ConnectorForce:
-        """The user function of the contact that belongs to the connector, which acts from now on."""
-        kind = LineForce if self.on_line else ConnectorForce
-        function = kind(self.contact, self.at, self.bore_spin)
-        self.set_force(function)
-        return function
+            kernel = compiled_line_kernel(contact.force_kernel)
+        else:
+            connector = ObjectConnectorRigidBodySpringDamper(
+                markerNumbers=markers,
+                useIntrinsicFormulation=self.at is Attachment.MIDDLE,
+                visualization=VObjectConnectorRigidBodySpringDamper(show=False),
+                **options,
+            )
+            kernel = compiled_kernel(contact.force_kernel, self.at, contact.bearing.is_slot)
+        self.object = mbs.AddObject(connector)
+        self.kernel, self.constants = kernel, np.array(contact.constants)
+        self._own = self.kernel, self.constants
+        self.closed, self.speed, self.deflection, self.slip, self.step = False, 0.0, 0.0, 0.0, 0.0
+        self.last: tuple[float, ...] = ()
+        self.turn = self.along = 0.0, 0.0
+        self.calls = 0
+        self.set_force(self.stretched if self.on_line else self.moved)
 
     def set_force(self, function: Callable[..., Any]) -> None:
         """Let a user function give force and moment, or the force along the line of centres."""
         name = "springForceUserFunction" if self.on_line else "springForceTorqueUserFunction"
         self.mbs.SetObjectParameter(self.object, name, function)
+
+    def use(self, kernel: Callable[..., Any] | None = None, constants: Any = None) -> None:
+        """Let another kernel act with its constants, or that of the contact again."""
+        self.kernel, self.constants = self._own if kernel is None else (kernel, constants)
+
+    def moved(
+        self,
+        mbs: Any,
+        t: float,
+        item: int,
+        displacement: list[float],
+        rotation: list[float],
+        velocity: list[float],
+        angular_velocity: list[float],
+        *settings: Any,
+    ) -> list[float]:
+        """The user function: force [N] and moment [N m] that pull the markers together."""
+        x, y, z = displacement
+        vx, vy, vz = velocity
+        self.calls += 1
+        self.turn, self.along = (rotation[2], angular_velocity[2]), (z, vz)
+        spin = self.bore_spin() if self.at is Attachment.MIDDLE else 0.0  # else it is not used
+        self.last = force = self.kernel(
+            x, y, z, vx, vy, vz, rotation[2], angular_velocity[2], spin,
+            self.closed, self.speed, self.deflection, self.slip, self.step, self.constants,
+        )  # fmt: skip
+        if math.isnan(force[7]):
+            self.contact.normal.check(force[4])
+        return [force[0], force[1], force[2], 0.0, 0.0, force[3]]
+
+    def stretched(self, mbs: Any, t: float, item: int, depth: float, rate: float, *settings: Any) -> float:
+        """The user function of a spring-damper: force [N] that pulls the markers together."""
+        self.calls += 1
+        self.last = force = self.kernel(depth, rate, self.closed, self.speed, self.constants)
+        if math.isnan(force[0]):
+            self.contact.normal.check(depth)
+        return force[0]
 
     def bore_spin(self, state: Any = CURRENT) -> float:
         """Angular velocity of the bore about its axis [rad/s]."""
@@ -147,7 +294,7 @@ class JointItem:
         if self.at is not Attachment.MIDDLE or abs(turn) <= FRAME_TURN:
             return False
         self._frame_turn = math.remainder(self._frame_turn - turn, 2.0 * math.pi)
-        self.mbs.SetMarkerParameter(self.journal_marker, "localHT", self._frame())
+        self._place_journal()
         return True
 
     def slide(self, bore: float, journal: float) -> None:
@@ -157,16 +304,12 @@ class JointItem:
         self.mbs.SetMarkerParameter(self.bore_marker, "localHT", slid.tolist())
         if journal != self._shift:
             self._shift = journal
-            self.mbs.SetMarkerParameter(self.journal_marker, "localHT", self._frame())
+            self._place_journal()
 
-    def _frame(self) -> Frame:
+    def _place_journal(self) -> None:
         turned = self._journal @ np.array(frame((0.0, 0.0), self._frame_turn))
         turned[:3, 3] += self._shift * turned[:3, 2]
-        rows: Frame = turned.tolist()
-        return rows
-
-
-KINDS = (OUTPUT.Position, OUTPUT.Velocity, OUTPUT.RotationMatrix, OUTPUT.AngularVelocity)
+        self.mbs.SetMarkerParameter(self.journal_marker, "localHT", turned.tolist())
 
 
 def frame(centre: tuple[float, float], turn: float = 0.0) -> Frame:

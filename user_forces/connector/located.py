@@ -22,9 +22,15 @@ from user_forces.values.value import InputError
 NEVER_LONGER = 2**30  # steps after which the engine would lengthen a step by itself
 ROUNDING = 1e-9  # of a grid step, by which its end may be missed
 GROWTH_AFTER = 4  # grid steps in a row without contact, before steps grow twofold
-SMOOTH = (
-    0.02  # largest change of accelerations over a step, as a share of the largest so far, for steps to grow
-)
+# largest change of accelerations over a step, as a share of the largest so far, for steps to grow
+SMOOTH = 0.02
+CALLED = ("PreStep", "PostNewton", "PostStep")  # user functions of the model
+CONTROL = {
+    "adaptiveStep": True,  # else the engine computes times from a fixed step
+    "adaptiveStepRecoverySteps": NEVER_LONGER,
+    "minimumStepSize": 0.1 * SHORTEST,
+    "numberOfSteps": 1,
+}
 
 
 @dataclass(frozen=True)
@@ -150,20 +156,17 @@ def solve_located(mbs: Any, settings: Any, *, growth: int = 1, estimates_error: 
         raise InputError(
             "mbs: has no clearance joint; allowed: a model with `ClearanceJoint` or `ClearanceGuide`"
         )
-    if not estimates_error:
-        return _run(mbs, settings, joints, 1, growth)
     coarse = _run(mbs, settings, joints, 1, growth)
+    if not estimates_error:
+        return coarse
     fine = _run(mbs, settings, joints, 2, growth)
-    both = zip(coarse.joints, fine.joints, strict=True)
-    return LocatedRun(tuple(_with_error(*pair) for pair in both), fine.steps, fine.cut_steps)
-
-
-def _with_error(coarse: JointRun, fine: JointRun) -> JointRun:
-    """The finer of two runs with the distance between both, which covers a method of at least first order."""
-    both = zip(coarse.impacts, fine.impacts, strict=False)
-    times = [abs(one.time - other.time) for one, other in both]
-    force = abs(coarse.largest_force - fine.largest_force)
-    return JointRun(fine.impacts, fine.largest_force, force, max(times, default=0.0))
+    runs = []
+    for one, other in zip(coarse.joints, fine.joints, strict=True):
+        both = zip(one.impacts, other.impacts, strict=False)
+        off = max((abs(first.time - second.time) for first, second in both), default=0.0)
+        force = abs(one.largest_force - other.largest_force)  # covers a method of at least first order
+        runs.append(JointRun(other.impacts, other.largest_force, force, off))
+    return LocatedRun(tuple(runs), fine.steps, fine.cut_steps)
 
 
 def _run(mbs: Any, settings: Any, joints: Sequence[EngineContact], finer: int, growth: int) -> LocatedRun:
@@ -176,9 +179,7 @@ def _run(mbs: Any, settings: Any, joints: Sequence[EngineContact], finer: int, g
     steps.time = integration.startTime
     kept = {name: getattr(integration, name) for name in CONTROL}
     numbers = [joint.impact_steps.number for joint in joints]
-    steps.own = {
-        name: getattr(mbs, f"Get{name}UserFunction")() for name in ("PreStep", "PostNewton", "PostStep")
-    }
+    steps.own = {name: getattr(mbs, f"Get{name}UserFunction")() for name in CALLED}
     try:
         for name, setting in CONTROL.items():
             setattr(integration, name, setting)
@@ -201,12 +202,3 @@ def _run(mbs: Any, settings: Any, joints: Sequence[EngineContact], finer: int, g
             joint.is_driven, joint.impact_steps.number = False, number
     results = tuple(JointRun(tuple(joint.onsets), joint.largest_force) for joint in joints)
     return LocatedRun(results, steps.steps, steps.cut_steps)
-
-
-CALLED = ("PreStep", "PostNewton", "PostStep")  # user functions of the model
-CONTROL = {
-    "adaptiveStep": True,  # else the engine computes times from a fixed step
-    "adaptiveStepRecoverySteps": NEVER_LONGER,
-    "minimumStepSize": 0.1 * SHORTEST,
-    "numberOfSteps": 1,
-}

@@ -14,7 +14,7 @@ from support_exudyn.model.plane_geometry import minus, rotated
 from support_exudyn.model.spatial_linkage import UP, Bearing, SpatialBody, SpatialLinkage
 from support_exudyn.model.to_space import at
 from user_forces.contact import FaceContact
-from user_forces.face import Face
+from user_forces.journal import Face
 from user_forces.normal.power_laws import Exact
 from user_forces.values.units import (
     Kilograms,

@@ -54,7 +54,6 @@ class SceneBuilder(JointBuilder):
             place.contact,
             self.mount(place.bore, place.bore_point, bore, still=block),
             self.mount(place.journal, place.journal_point, journal),
-            0.0,
         )
 
     def frames(self, place: ContactPlace | SectionPlace) -> tuple[Matrix, Matrix]:

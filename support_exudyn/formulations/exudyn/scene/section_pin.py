@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import math
 
-from user_forces.connector.attachment import Attachment
 from user_forces.connector.contact_connector import ContactConnector, FindMass
-from user_forces.connector.item import INITIAL, JointItem
+from user_forces.connector.item import INITIAL, Attachment, JointItem
 from user_forces.contact import Contact
 from user_forces.contact_state import InverseMass, Onset, PinMemory
 from user_forces.impact_steps import ImpactSteps
@@ -175,8 +174,7 @@ class SectionPin(ContactConnector):
         super().accept(t)
         if self.slides:
             motion = self.item.relative() if self.item.on_line else None
-            function = self.user_function
-            along = (motion.displacement[2], motion.velocity[2]) if motion is not None else function.along
+            along = self.item.along if motion is None else (motion.displacement[2], motion.velocity[2])
             self._shift, self._shift_rate = self._shifted + along[0], along[1]
         if self.whole.sections[-1] is self:
             self.whole.accepted(t)
@@ -188,5 +186,6 @@ class SectionPin(ContactConnector):
         elif self.force.clamped:
             self.clamped_steps += 1
 
-    def _mass_place(self) -> Vector2:
+    def mass_place(self) -> Vector2:
+        """See `ContactConnector`."""
         return self.whole.place

@@ -23,7 +23,7 @@ from support_exudyn.mechanics.contact_places import RelativeMotion, journal_arm,
 from support_exudyn.mechanics.trajectory import ContactSeries, Series
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.model.spatial_linkage import Bearing, BearingEnd
-from user_forces.connector.attachment import Attachment, attachment
+from user_forces.connector.item import Attachment, attachment
 from user_forces.contact import JournalContact
 from user_forces.contact_state import PinMemory
 from user_forces.friction.laws import Frictionless

@@ -13,8 +13,8 @@ from support_exudyn.formulations.engine_settings import quiet_engine
 from support_exudyn.formulations.exudyn.scene.engine_scene import INITIAL, EngineScene
 from support_exudyn.mechanics.kinetics import Matrix
 from support_exudyn.scene.equilibrium import SMOOTH_SHIFT, CentringSpring, centring_spring, find_equilibrium
-from user_forces.connector.attachment import connector_kernel
 from user_forces.connector.contact_connector import ContactConnector
+from user_forces.connector.item import connector_kernel
 from user_forces.normal.law import LoadError
 
 
@@ -54,7 +54,7 @@ class EngineBalance:
         self._springs: dict[str, CentringSpring] = {}
         self.centre(1.0)
         for name, pin in scene.clearance_joints.items():
-            pin.user_function.use(self._held(name, pin))
+            pin.item.use(self._held(name, pin))
         engine: Any = exudyn  # the stubs of its solvers lack self
         self._solver, self._settings = engine.MainSolverStatic(), engine.SimulationSettings()
         self._settings.solution.file.write = False
@@ -72,8 +72,8 @@ class EngineBalance:
         """Let contacts give their own forces again."""
         self._solver.FinalizeSolver(self.mbs, self._settings)
         for pin in self.scene.clearance_joints.values():
-            pin.user_function.use()
-            pin.user_function.calls = 0  # those of a run are counted
+            pin.item.use()
+            pin.item.calls = 0  # those of a run are counted
 
     def centre(self, share: float) -> None:
         """See `Balance`; journals stay where they have shifted to along their bores."""

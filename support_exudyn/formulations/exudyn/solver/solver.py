@@ -120,7 +120,7 @@ class SolverRun:
             cut_steps=self.cut_steps,
             newton_iterations=int(it.newtonStepsCount),
             jacobians=int(it.newtonJacobiCount),
-            user_function_calls=sum(pin.calls for pin in self.pins)
+            user_function_calls=sum(pin.item.calls for pin in self.pins)
             + sum(friction.calls for friction in self.frictions),
             failed_newton=self.failed_newton,
             clamped_steps=sum(pin.clamped_steps for pin in self.pins),
