@@ -62,19 +62,6 @@ def rattling(step: float) -> Scenario:
     return loose_slider_crank(0.0008, step=step, record_period=1e-4, solver=SOLVER)
 
 
-def test_a_slider_crank_is_as_the_compiled_one() -> None:
-    step = 2e-5
-    result = simulate(rattling(step))
-    exact = simulate(replace(rattling(step), formulation="compiled", solver=TIGHT))
-    assert len(result.onsets[SLIDER_PIN]) == len(exact.onsets[SLIDER_PIN]) == 3
-    for impact, true in zip(result.onsets[SLIDER_PIN], exact.onsets[SLIDER_PIN], strict=True):
-        # a crank turns by 0.01 rad in a step; measured: 0.2 %, 4e-7 s
-        assert impact.speed == pytest.approx(true.speed, rel=5e-3)
-        assert impact.time == pytest.approx(true.time, abs=1e-6)
-    # measured: 8e-5; 6e-3 with velocities as steps leave them
-    assert result.energy_error < 5e-4 * turned_over(result.channels)
-
-
 def test_a_crank_that_turns_far_in_a_step_is_finished_all_the_same() -> None:
     # 0.05 rad in a step: Newton's method gave up at the first impact
     result = simulate(rattling(1e-4))

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import inspect
-import pickle
-from concurrent.futures import ThreadPoolExecutor, wait
 from pathlib import Path
 from typing import Any
 
@@ -34,32 +32,6 @@ def test_what_cannot_be_kept_is_compiled_all_the_same(monkeypatch: pytest.Monkey
     dispatcher = compilation.entry(twice)
     assert dispatcher(21.0) == 42.0
     assert asked[:2] == [True, False]  # then numba compiles helpers of its own
-
-
-def test_what_an_older_program_has_kept_is_not_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """It may name classes that are no longer there."""
-    monkeypatch.setattr(numba.config, "CACHE_DIR", str(tmp_path))
-    dispatcher = compilation.entry(twice)
-    index = Path(dispatcher._cache._cache_file._index_path)
-    index.parent.mkdir(parents=True, exist_ok=True)
-    index.write_bytes(pickle.dumps(numba.__version__) + b"\x80\x04cno.module\nNoClass\n.")
-    assert dispatcher(21.0) == 42.0
-    assert compilation.STAMP[0].encode() in index.read_bytes()
-
-
-def test_a_function_that_another_process_compiles_is_waited_for(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(numba.config, "CACHE_DIR", str(tmp_path))
-    dispatcher, other = compilation.entry(twice), compilation.entry(twice)
-    (lock,) = compilation._lock(Path(dispatcher._cache.cache_path), "twice")  # the other process begins
-    with ThreadPoolExecutor(1) as pool:
-        found = pool.submit(dispatcher, 21.0)
-        assert wait([found], timeout=0.3).not_done
-        lock.release()
-        assert found.result() == 42.0
-    assert other(21.0) == 42.0
-    assert (dispatcher.stats.cache_hits, other.stats.cache_hits) == ({}, {(numba.types.float64,): 1})
 
 
 def test_every_compiled_function_is_in_the_stamp() -> None:

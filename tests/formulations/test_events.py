@@ -14,8 +14,6 @@ from hypothesis import strategies as st
 from numpy.polynomial import Polynomial
 
 from support_exudyn.formulations.compiled import events, landing
-from support_exudyn.formulations.compiled.integrate import StepEvents, land_on_first
-from support_exudyn.formulations.compiled.oil_events import NONE
 from support_exudyn.scene.arrays import CONTACT, IMPACTS, REPORT
 from tests.formulations.plain import plain
 
@@ -178,94 +176,10 @@ def cut(push: Callable[[float], float], depth: Polynomial, h: float = 0.125, sta
     return found_in_general(at, start, h)
 
 
-SOME = (0.3, 0.5, 0.7)
-DEEP = Polynomial([5e-4, -1e-3])  # on its way out, still closed after a tenth of a second
-PARTS_EARLY = Polynomial([5e-5, -1e-3])  # parts at 0.05 s
-
-
-CUTS: dict[str, tuple[Callable[[float], float], str]] = {
-    "tension begins": (lambda t: 0.1 - t, "cut"),
-    "tension ends": (lambda t: t - 0.1, "cut"),
-    "tension begins later": (lambda t: 0.2 - t, NOTHING),
-    **{
-        f"tension within the step at {m}": (lambda t, m=m: 0.4 * ((8.0 * t - m) ** 2 - 0.035), UNCLEAR)
-        for m in SOME
-    },
-    **{
-        f"none within the step at {m}": (lambda t, m=m: -0.4 * ((8.0 * t - m) ** 2 - 0.035), UNCLEAR)
-        for m in SOME
-    },
-    "nearly tension": (lambda t: 0.4 * ((8.0 * t - 0.5) ** 2 + 0.04), NOTHING),
-    "far from a cut nothing is looked at": (lambda t: 0.6 if t in (0.0, 0.125) else -1.0, NOTHING),
-    # where a cut is met a step begins on neither side
-    "just met from below": (lambda t: -1e-12 + t, NOTHING),
-    "just met from above": (lambda t: 1e-12 - t, NOTHING),
-}
-
-
-@pytest.mark.parametrize("case", CUTS)
-def test_cuts_within_a_step_are_seen(case: str) -> None:
-    push, what = CUTS[case]
-    event, at = cut(push, DEEP)
-    assert event == what
-    assert at == pytest.approx(0.1, rel=1e-12) if what == "cut" else at >= 0.0  # straight lines
-
-
-def test_a_cut_and_a_parting_in_one_step_are_told_apart_by_shorter_ones() -> None:
-    assert cut(lambda t: 0.07 - t, PARTS_EARLY)[0] == UNCLEAR
-    assert cut(lambda t: 0.04 - t, PARTS_EARLY, h=0.045) == ("cut", pytest.approx(0.04, rel=1e-12))
-    assert cut(lambda t: 0.07 - t, PARTS_EARLY, h=0.06) == (SEPARATION, pytest.approx(0.05, rel=1e-12))
-    # in so short a step the separation counts
-    tiny = Polynomial([5e-14, -1e-3])
-    assert cut(lambda t: 2e-11 - t, tiny, h=1e-10)[0] == SEPARATION
-
-
 # --- at the ends of steps ---
 
 
-@pytest.mark.parametrize(
-    ("closed", "size", "bend"),
-    [(True, 1.0, 0.03), (True, 1.0, -0.03), (False, -0.1, 0.02), (False, -0.1, -0.02)],
-)
-def test_what_a_cubic_cannot_tell_is_looked_at_more_closely(closed: bool, size: float, bend: float) -> None:
-    # s^2 + bend s^4 has the same values and slopes at -1 and 1 as a parabola that is lower by `bend` at 0; of a
-    # flight the first quarter of the step is looked at
-    s = Polynomial([-1.0, 16.0 if closed else 64.0])
-    close = size * DEPTH * (s**2 + bend * s**4 + 0.5 * bend)
-    assert find(Course(close, closed=closed), 0.0, 0.125)[0] == UNCLEAR
-
-
-@pytest.mark.parametrize("rate", [-3e-18, 3e-18, -1e-10])
-@pytest.mark.parametrize("rounded", [0.0, 2e-16, -2e-16])
-def test_nothing_happens_to_a_pin_that_rests(rate: float, rounded: float) -> None:
-    # its depth is known to rounding, which is more than it moves in any step, but rates are known much better
-    class Resting(NamedTuple):
-        closed: bool = True
-
-        def depth(self, t: float) -> float:
-            return 1e-4 + rounded * (t > 0.0)
-
-        def rate(self, t: float) -> float:
-            return rate * (1.0 + 1e-4 * t)
-
-    for step in (1e-8, 1e-5, 2e-3):
-        assert find(Resting(), 0.0, step)[0] == NOTHING
-
-
-def test_a_bump_between_two_falling_ends_is_a_touch() -> None:
-    rate = -Polynomial.fromroots([0.002, 0.009])
-    depth = rate.integ()
-    bump = depth - (0.3 * depth(0.0) + 0.7 * depth(0.009))
-    assert bump(0.0) < 0.0 < bump(0.009)
-    assert driven(Course(1e7 * DEPTH * bump, closed=False))[0][0] == IMPACT
-    # it lies within the first part of a step
-    assert find(Course(1e5 * DEPTH * bump, closed=False), 0.0, 0.05)[0] == UNCLEAR
-
-
 # --- landing ---
-
-
-STEP = 0.125
 
 
 @pytest.mark.parametrize("what", [events.IMPACT, events.SEPARATION])
@@ -279,27 +193,3 @@ def test_contacts_that_meet_or_part_at_the_same_instant_do_so_together(what: int
     assert plain(landing.happen)(scene, 0, what, 1.0, np.zeros(1), onsets, report)
     np.testing.assert_array_equal(contacts.closed, [1.0, 1.0, 0.0] if meets else [0.0, 0.0, 1.0])
     assert report[IMPACTS] == (2 if meets else 0)
-
-
-@pytest.mark.parametrize("other", [events.IMPACT, events.SEPARATION])
-def test_a_contact_that_was_expected_later_is_landed_on_if_it_comes_first(other: int) -> None:
-    times, rates = (0.08, 0.05), (1.0, 1.0 if other == events.IMPACT else -1.0)
-
-    def contacts(t: float) -> np.recarray:
-        found = np.zeros(2, CONTACT).view(np.recarray)
-        found.rate, found.depth = rates, [rate * (t - at) for rate, at in zip(rates, times, strict=True)]
-        found.closed = 0.0, float(other == events.SEPARATION)
-        return found
-
-    def advance(scene: SimpleNamespace, t: float, length: float, *rest: object) -> None:
-        scene.contacts[:] = contacts(t + length)
-
-    scene = SimpleNamespace(contacts=contacts(STEP))
-    room = SimpleNamespace(now=contacts(0.0), then=contacts(STEP), report=[0.0] * REPORT)
-    room.rates = room.end = room.weights = room.right = None
-    expected = StepEvents(0, events.IMPACT, 0.9, NONE, 0)
-    length, contact, what, _ = plain(land_on_first, advance=advance)(
-        scene, room, expected, 0.0, STEP, False, None
-    )
-    assert (contact, what) == (1, other)
-    assert length == pytest.approx(times[1], abs=1e-12)

@@ -124,16 +124,3 @@ def test_space_is_refused() -> None:
     with pytest.raises(InputError, match=r"formulation = 'compiled': is planar.*'exudyn'"):
         support(dimensions=3, formulation="compiled")
     assert not formulation("compiled").covers(support(dimensions=3))
-
-
-def test_a_law_that_cannot_be_compiled_is_left_to_the_engine() -> None:
-    scene = SCENES["a law that numba cannot compile"]
-    with pytest.warns(UserWarning, match="computed in Python, since numba cannot compile it"):
-        result = simulate(scene, accuracy="draft")
-    assert result.scenario.formulation == "exudyn"
-    assert result.counts.user_function_calls > 0
-
-
-def test_an_unknown_formulation_is_refused() -> None:
-    with pytest.raises(InputError, match=r"Scenario\.formulation = 'fastest': .*'auto'.*'compiled'"):
-        support(formulation="fastest")

@@ -183,12 +183,3 @@ def test_energy_adds_up(run: tuple[Case, Result]) -> None:
     assert (result["pin.rear_base.friction_force"] * result["pin.rear_base.slip"] <= 0.0).all()
     if case[1] > 0.0:
         assert result["energy.friction_loss"][-1] > 100.0  # J, else the line above says nothing
-
-
-def test_shift_of_the_tip_is_the_quasi_static_one(run: tuple[Case, Result]) -> None:
-    _, result = run
-    clearance = 1e3 * result.scenario.clearance_pins["rear_base"].contact.bearing.clearance
-    shift = 1e3 * (result["tip.x"][2999] - result["tip.x"][0])
-    # -0.98 to -1.27 mm per 0.5 mm over the rise, by the independent posture with the journal pressed along
-    # the load; the depth of 0.15 mm adds a tenth at 1.5 mm and a third at 0.5 mm
-    assert -1.27 * clearance / 0.5 * 1.4 < shift < -0.98 * clearance / 0.5

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -27,7 +26,6 @@ from support_exudyn.model.linkage import GROUND
 from support_exudyn.model.spatial_linkage import Bearing, SpatialBody, SpatialLinkage
 from tests.cases.run_cases import PIN, loose_support
 from tests.cases.spatial_cases import LENGTH, InSpace, contact
-from tests.user_forces.test_restitution import scenario
 from user_forces import (
     Ambrosio,
     Exact,
@@ -81,15 +79,6 @@ def test_later_onsets_converge_with_second_order() -> None:
         assert np.log2(errors[0] / errors[-1]) / 2 > 1.7
         # times to 1e-6 of a flight of 20 ms (their print is rounded to 5e-9 s)
         assert runs[-1][n].time == pytest.approx(TIMES[n], abs=2e-6)
-
-
-def test_energy_of_the_drop_is_accounted_for() -> None:
-    coarse = dropping(5e-4)
-    result = simulate(coarse)
-    # asked for: 1e-4 of what is dissipated, at the default step
-    assert result.energy_error < 1e-4 * result.dissipated
-    finer = simulate(coarse.refined())
-    assert result.energy_error / finer.energy_error > 3.0  # 4 for second order
 
 
 # --- a ball in a ring: ever shorter bounces end in resting contact ---
@@ -149,16 +138,6 @@ def test_bounces_end_in_resting_contact(law: NormalLaw) -> None:
     assert longer.onsets["ring"] == onsets
 
 
-def test_speeds_of_bounces_fall_by_the_restitution_till_the_weight_matters() -> None:
-    law = Exact(stiffness=STIFFNESS, restitution=0.8)
-    onsets = bounce(law, 0.4).onsets["ring"]
-    assert onsets[0].speed == pytest.approx(math.sqrt(2.0 * GRAVITY * CLEARANCE), rel=1e-9)  # free fall
-    for one, other in pairwise(onsets[:6]):
-        # the weight presses during the contact, which takes a share m g depth / (m v^2) of the energy
-        depth = law.turning_depth(0.5 * BALL * one.speed**2)
-        assert other.speed / one.speed == pytest.approx(0.8, abs=GRAVITY * depth / one.speed**2)
-
-
 def test_rejected_steps_leave_no_trace() -> None:
     # grids that reject different steps give the same impacts
     law = Exact(stiffness=STIFFNESS, restitution=0.6)
@@ -175,7 +154,6 @@ def test_rejected_steps_leave_no_trace() -> None:
 # --- separations ---
 
 
-GIVING_BACK = LankaraniNikravesh(stiffness=1e8, restitution=0.7)
 SPEED = 0.2  # [m/s], of the approach
 
 
@@ -183,24 +161,6 @@ def only(result: Result) -> Onset:
     """The only contact of a run."""
     (onset,) = result.onsets["pin"]
     return onset
-
-
-def seen_parting(result: Result, depth: str) -> float:
-    """Time at which the records of a depth pass zero downwards, by the straight line between two [s]."""
-    values = result[depth]
-    (n,) = np.flatnonzero((values[:-1] > 0.0) & (values[1:] <= 0.0))
-    share = values[n] / (values[n] - values[n + 1])
-    return float(result.time[n] + share * (result.time[n + 1] - result.time[n]))
-
-
-def test_the_time_of_a_parting_is_that_of_the_records() -> None:
-    tried = scenario(GIVING_BACK)
-    result = simulate(replace(tried, record_period=tried.duration / 4000))
-    length = only(result).separation_time - only(result).time
-    # a thousandth of the impact's steps, of which it has 512
-    assert only(result).separation_time == pytest.approx(
-        seen_parting(result, "pin.pin.depth"), abs=1e-4 * length
-    )
 
 
 # --- formulations ---

@@ -33,8 +33,6 @@ from support_exudyn import (
 from support_exudyn.model.linkage import pinned
 from support_exudyn.postprocessing.pytest_plugin import AssertClose, SimulateCached
 from tests.cases.run_cases import support
-from tests.formulations.test_slots_and_gears import SPEED as YOKE_SPEED
-from tests.formulations.test_slots_and_gears import ScotchYoke
 from user_forces import Ambrosio, FrictionLaw, LuGre, value
 
 MASS, INERTIA, G, RADIUS, MU = 50.0, 2.0, 9.81, 0.05, 0.3
@@ -251,22 +249,6 @@ def test_a_block_on_a_slope_creeps_with_a_warning_or_holds(way: str) -> None:
     assert way_down[-1] < 5e-5  # while bristles swing in they slip: steady deflections are 5 micrometres
     assert abs(way_down[-1] - way_down[50]) < 1e-7
     assert found["holds"]["g.friction_force"][-1] == pytest.approx(GRAVITY * math.sin(SLOPE), rel=1e-5)
-
-
-def test_a_pin_in_a_slot_rubs_and_rolls_alike_in_both_formulations() -> None:
-    guides: dict[str, Guide] = {"slot": IdealGuide(friction=Ambrosio(sliding_coefficient=0.3), pin_radius=0.02)}
-    scene = Scenario(
-        machine=ScotchYoke(),
-        drive=Steady(rate=YOKE_SPEED),
-        duration=0.3,
-        record_period=1e-3,
-        guides=guides,
-        step=2e-4,
-    )
-    fast, slow = (simulate(replace(scene, formulation=way)) for way in WAYS)
-    assert fast["energy.friction_loss"][-1] == pytest.approx(slow["energy.friction_loss"][-1], rel=1e-5)
-    np.testing.assert_allclose(fast["slot.friction_force"], slow["slot.friction_force"], atol=1e-3)
-    assert fast.energy_error < 1e-6 * fast["energy.friction_loss"][-1]
 
 
 def test_a_guide_that_jams_is_refused_with_its_name() -> None:

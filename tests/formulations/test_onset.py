@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from numpy.polynomial import Polynomial
 
 from tests.analytic import fall_through
-from user_forces.contact_events import BEYOND, SHARE, Action, Verdict, goes_on, judge, judge_at_ends
-from user_forces.contact_state import HEAVIEST, InverseMass, Onset, PinMemory
+from user_forces.contact_events import BEYOND, SHARE, Action, Verdict, judge, judge_at_ends
+from user_forces.contact_state import InverseMass, Onset, PinMemory
 
 H = 1e-3  # length of a step [s]
 BEHIND = BEYOND * SHARE  # how far behind an event a cut step is to end, in steps
@@ -184,33 +184,6 @@ def test_where_the_depth_does_not_reach_zero_nothing_happens(
     assert verdict.memory[:2] == (speed is not None, speed or 0.0)
 
 
-@given(
-    first=st.floats(-0.5, 0.5),
-    last=st.floats(-0.5, 0.5),
-    mean=st.floats(-0.5, 0.5),
-    # or so deep that no cubic between two of them gets to the surface
-    depth=st.floats(-1e-4, 1e-4) | st.floats(5e-4, 1e-3),
-    in_contact=st.booleans(),
-)
-def test_what_surely_goes_on_is_judged_to(
-    first: float, last: float, mean: float, depth: float, in_contact: bool
-) -> None:
-    # whatever the rate does in the midst of the step
-    start, end = memory_of(in_contact, 0.3, depth, first), (depth + H * mean, last)
-    if goes_on(start, *end, H):
-        assert judge(start, *end, H, H, any_speed(H)) == accepted(start.moved(*end))
-
-
-@pytest.mark.parametrize("back", [1.0, -1.0])
-def test_a_dip_within_a_step_does_not_surely_go_on(back: float) -> None:
-    # the rate, of one sign at both ends, passes zero at 0.4 and 0.6 of the step
-    rate = back * 0.1 * Polynomial.fromroots([0.4 * H, 0.6 * H]) / H**2
-    dips, evenly = rate.integ() + 2e-4, Polynomial([2e-4, back * 0.1])
-    for depth, surely in ((dips, False), (evenly, True)):
-        start = memory_of(True, 0.3, 2e-4, float(depth.deriv()(0.0)))
-        assert goes_on(start, float(depth(H)), float(depth.deriv()(H)), H) is surely
-
-
 # --- one step after the other ---
 
 
@@ -273,9 +246,3 @@ def test_mass_along_the_axes_of_mobility_is_the_reciprocal_of_it(
     # rounding of the other one, up to 1e6 times larger
     assert inverse_mass.mass(x, y) == pytest.approx(along, rel=1e-9)
     assert inverse_mass.mass(-y, x) == pytest.approx(across, rel=1e-9)
-
-
-@pytest.mark.parametrize("noise", [0.0, 1e-18, -1e-18])
-def test_mass_where_the_joints_leave_no_motion_is_very_large(noise: float) -> None:
-    # across the free direction, with rounding of the order of a mobility of 0.01/kg: a thousandth of 1/HEAVIEST
-    assert InverseMass(0.01, 0.0, noise).mass(0.0, 1e-3) == pytest.approx(HEAVIEST, rel=2e-3)

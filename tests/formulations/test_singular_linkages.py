@@ -163,12 +163,6 @@ def test_a_driven_linkage_ends_at_its_change_point(
     assert error.value.failure.time == pytest.approx(time, abs=1e-4)
 
 
-def test_without_weight_a_parallelogram_passes_with_the_forces_of_its_coupler() -> None:
-    result = run(PARALLELOGRAM, "exudyn", 1.0, record=1e-3, gravity=(0.0, 0.0))
-    # half of m r w^2 each
-    assert result.channels["pin.A.force"].values == pytest.approx(0.5 * 1.0 * 0.1 * TURN**2, rel=1e-3)
-
-
 @pytest.mark.parametrize("formulation", FORMULATIONS)
 def test_bars_that_swing_freely_through_a_change_point_are_no_failure(formulation: str) -> None:
     linkage = hangers([0.0, 1.0], 1.0, 80.0, 5.0)

@@ -24,7 +24,6 @@ from support_exudyn import (
     TracePoint,
     simulate,
 )
-from support_exudyn.machines.check.statics import mobility, statics
 from support_exudyn.model.linkage import pinned
 from user_forces import value
 
@@ -180,18 +179,6 @@ def test_geared_bodies_turn_in_proportion(formulation: str) -> None:
     moment = 1.0 * G * 0.05 * np.cos(RATIO * SPEED * gears.time)
     np.testing.assert_allclose(gears["mesh.moment"], moment, atol=0.01 * force)
     np.testing.assert_allclose(gears["wheel.moment"], RATIO * moment, atol=0.01 * force)
-
-
-def test_slots_and_gears_count_one_condition_each() -> None:
-    of_yoke, of_gears = mobility(ScotchYoke().linkage()), mobility(GearPair().linkage())
-    assert (of_yoke.counted, of_yoke.free, of_yoke.left) == (1, 1, 0)
-    assert (of_gears.counted, of_gears.free, of_gears.left) == (1, 1, 0)
-    assert of_yoke.said().startswith(
-        "degrees of freedom: 3 x 2 bodies - 2 x 1 pins - 2 x 1 guides - 1 slots = 1"
-    )
-    held = statics(GearPair().linkage(), np.zeros(6))
-    assert held.gears["mesh"] == pytest.approx(G * 0.05)
-    assert held.cranks["wheel"] == pytest.approx(RATIO * G * 0.05)
 
 
 @EVERY_FORMULATION

@@ -28,7 +28,7 @@ from support_exudyn import (
 from support_exudyn.model.loads.load import ActingLoad
 from support_exudyn.model.spatial_linkage import Bearing, SpatialBody, SpatialLinkage
 from tests.cases.run_cases import loose_support, support
-from tests.cases.spatial_cases import InSpace, observed
+from tests.cases.spatial_cases import InSpace
 from tests.roof_cases import ON_OIL
 from tests.roof_cases import OVER_THE_COLUMNS as OVER
 
@@ -279,26 +279,6 @@ def test_left_mirrors_right(load: Load) -> None:
     for one, other in (("left", "right"), ("right", "left")):
         wanted = right[f"front_column_{other}.force"]
         np.testing.assert_allclose(left[f"front_column_{one}.force"], wanted, atol=1e-4 * np.abs(wanted).max())
-
-
-def test_what_the_ground_carries_balances_a_load_beside_the_middle() -> None:
-    load = AppliedForce(body="canopy", point=TIP, lateral=0.5, full_force=(0.0, -4e5))
-    context, _ = observed(
-        support(
-            drive=Held(), duration=0.01, actuators=ON_OIL, loads={"load": load}, dimensions=3, start="settled"
-        )
-    )
-    linkage, rolling = context.linkage, 0.0  # moments about x on what stands on the ground [N m]
-    for name, bearing in linkage.bearings.items():
-        if bearing.first == "ground":
-            force, moment = (part[name][-1] for part in (context.pins, context.pin_moments))
-            rolling += moment[0] + np.cross(bearing.first_point, force)[0]
-    for name, strut in linkage.actuators.items():
-        if strut.foot == "ground":
-            along = context.span(name)[-1]
-            push = context.actuators[name][-1] * along / np.linalg.norm(along)
-            rolling += np.cross(strut.foot_point, push)[0]
-    assert rolling == pytest.approx(-0.5 * 4e5, rel=1e-4)  # the weight is in the middle
 
 
 # --- blocks that fall beside the middle ---

@@ -8,49 +8,16 @@ import numpy as np
 import pytest
 from numpy.polynomial import Polynomial
 
-from support_exudyn.formulations.exudyn.solver.step_growth import CALM_STEPS, SMOOTH, StepGrowth
+from support_exudyn.formulations.exudyn.solver.step_growth import StepGrowth
 from support_exudyn.formulations.exudyn.solver.within_steps import StepEnd, between
 from user_forces.roots import has_a_top, peak
 
 MASS = np.array([2.0, 2.0, 1.0])
 WEIGHT = math.sqrt(2.0) * 9.81
-LARGEST = SMOOTH * WEIGHT / math.sqrt(2.0)  # change of an acceleration in x that is allowed [m/s^2]
 
 
 def steps(longest: float = 16.0) -> StepGrowth:
     return StepGrowth(1.0, longest, MASS, WEIGHT)
-
-
-def followed(smooth: StepGrowth, change: float, count: int) -> list[float]:
-    """Sizes after each of so many steps over which an acceleration changes by so much."""
-    sizes, acceleration = [], np.zeros(3)
-    for _ in range(count):
-        acceleration = acceleration + np.array([change, 0.0, 0.0])
-        smooth.follow(smooth.size, acceleration)
-        sizes.append(smooth.size)
-    return sizes
-
-
-def test_steps_double_after_calm_ones_up_to_the_longest() -> None:
-    sizes = followed(steps(5.0), 0.2 * LARGEST, 3 * CALM_STEPS + 1)
-    # the first step has none before it to compare with
-    assert sizes == [1.0] * CALM_STEPS + [2.0] * CALM_STEPS + [4.0] * CALM_STEPS + [5.0]
-
-
-def test_steps_halve_at_once_when_they_change_much() -> None:
-    smooth = steps()
-    followed(smooth, 0.0, 40)
-    assert smooth.size == 16.0
-    assert followed(smooth, 1.1 * LARGEST, 6) == [8.0, 4.0, 2.0, 1.0, 1.0, 1.0]
-
-
-def test_restart_begins_with_the_shortest() -> None:
-    smooth = steps()
-    followed(smooth, 0.0, 40)
-    smooth.restart()
-    assert smooth.size == 1.0
-    # and as from the start: nothing to compare the first step with, and four calm ones before they double
-    assert followed(smooth, 0.0, CALM_STEPS + 1) == [1.0] * CALM_STEPS + [2.0]
 
 
 # --- states inside a step ---

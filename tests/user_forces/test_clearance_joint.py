@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from tests.user_forces.own_models import GRAVITY, ORIGIN, OUTPUT, PIN, model, output, rigid, settings
+from tests.user_forces.own_models import GRAVITY, ORIGIN, OUTPUT, model, output, rigid, settings
 from user_forces import (
     ClearanceGuide,
     ClearanceJoint,
@@ -23,55 +23,7 @@ from user_forces import (
     solve_located,
 )
 
-TURNING = 5000.0 * math.pi / 30.0  # [rad/s]
-
 # --- yardsticks ---
-
-
-def slider_crank() -> tuple[Any, ClearanceJoint]:
-    """The slider-crank of Ravn and of Flores and co-workers, driven at 5000 rpm."""
-    mbs, ground = model()
-    tip = 0.05 * TURNING
-    crank = rigid(mbs, 0.30, 1e-4, [0.025, 0, 0], initialVelocity=[0, 0.5 * tip, 0],
-                  initialAngularVelocity=[0, 0, TURNING])  # fmt: skip
-    rod = rigid(mbs, 0.21, 2.5e-4, [0.11, 0, 0], initialVelocity=[0, 0.5 * tip, 0],
-                initialAngularVelocity=[0, 0, -tip / 0.12])  # fmt: skip
-    slider = rigid(mbs, 0.14, 1e-4, [0.17, 0, 0])
-    mbs.CreateGenericJoint(
-        itemNumbers=[ground, crank], position=[0, 0, 0], constrainedAxes=[1, 1, 0, 0, 0, 1],
-        offsetUserFunction=lambda mbs, t, item, given: [0, 0, 0, 0, 0, TURNING * t],
-    )  # fmt: skip
-    mbs.CreateGenericJoint(itemNumbers=[crank, rod], position=[0.05, 0, 0], constrainedAxes=PIN)
-    mbs.CreateGenericJoint(
-        itemNumbers=[ground, slider], position=[0.17, 0, 0], constrainedAxes=[0, 1, 0, 0, 0, 1]
-    )
-    law = LankaraniNikravesh(stiffness=6.610198e10, restitution=0.9)
-    joint = ClearanceJoint(
-        mbs, bore=(slider, ORIGIN), journal=(rod, [0.06, 0, 0]), bore_radius=0.01, clearance=0.0005,
-        normal=law, impact_steps=512,
-    )  # fmt: skip
-    mbs.Assemble()
-    return mbs, joint
-
-
-# onset [us] and approach [m/s] of an independent solution with two degrees of freedom and located onsets
-ONSETS = (
-    (227.286, 4.385783),
-    (637.056, 2.756949),
-    (749.700, 1.826699),
-    (1085.947, 1.101851),
-    (1205.816, 0.823801),
-)
-
-
-def test_the_slider_crank_hits_as_its_independent_solution() -> None:
-    mbs, joint = slider_crank()
-    mbs.SolveDynamic(settings(1.25e-3, 1e-6))
-    times, speeds = zip(*((onset.time, onset.speed) for onset in joint.impacts), strict=True)
-    assert 1e6 * np.array(times) == pytest.approx([onset for onset, _ in ONSETS], abs=0.006)
-    assert speeds == pytest.approx([speed for _, speed in ONSETS], rel=5e-5)
-    assert joint.largest_force == pytest.approx(4.59e4, rel=1e-3)
-    assert math.degrees(TURNING * joint.largest_force_time) == pytest.approx(7.55, abs=0.02)
 
 
 @friction_law

@@ -9,7 +9,6 @@ from typing import Any
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from scipy.special import lambertw
 
 from tests.cases.law_cases import (
     BEARING,
@@ -213,24 +212,3 @@ def test_range_of_pereira_and_what_it_delivers() -> None:
     # 3/4 (1 - 0.81) by hand: rounding; and half of the last digit of the docstring
     assert law.damping_factor == pytest.approx(0.1425, rel=1e-14)
     assert law.delivered_restitution == pytest.approx(0.913, abs=5e-4)
-
-
-@logarithmic
-@given(share=st.floats(-250.0, -0.05).map(lambda power: 10.0**power))
-def test_load_at_a_depth_is_the_branch_of_lambert(kind: type[CylinderLaw], share: float) -> None:
-    scale, offset = COMMON[kind]
-    depth = share * H * scale * math.exp(offset - 1.0)
-    y = -float(lambertw(-share / math.e, -1).real)
-    # at 0.9 of the largest depth the argument, rounded, is as far from its branching as 0.1
-    assert cylinder_law(kind).elastic_force(depth) == pytest.approx(LENGTH * depth / (H * y), rel=1e-12)
-
-
-@given(mm=st.floats(0.005, 0.3495))
-def test_exponent_of_pereira(mm: float) -> None:
-    y = 1.51 * math.log(1000.0 * mm) ** -0.151
-    # the same formula: rounding, of the clearance in m too
-    assert gap(mm).exponent == pytest.approx(y * mm**-0.005, rel=1e-14)
-    assert gap(1.5).exponent == pytest.approx(1.17127, abs=5e-6)  # half of the last printed digit
-    below, above = gap(0.34954 * (1.0 - 1e-12)).exponent, gap(0.34954 * (1.0 + 1e-12)).exponent
-    # 1.156278008 and 1.156278054 by hand, times 0.34954^-0.005 = 1.005: both branches meet
-    assert above - below == pytest.approx(1.005 * 4.6e-8, abs=1e-9)

@@ -9,7 +9,7 @@ import pytest
 
 from support_exudyn import Held, RampedOpening, Result, Scenario, SolverSettings, simulate
 from support_exudyn.model.hydraulics.elements import EndStops
-from support_exudyn.model.hydraulics.valves import CheckValve, YieldValve
+from support_exudyn.model.hydraulics.valves import YieldValve
 from tests.cases.cylinder_cases import opened
 from tests.formulations.hydraulics import leg_cases
 
@@ -66,20 +66,3 @@ def test_legs_are_those_of_the_compiled_formulation_to_second_order(name: str) -
         assert [one[1:] for one in events] == [one[1:] for one in known]
         np.testing.assert_allclose([e.time for e in events], [e.time for e in known], atol=2e-5)
     assert np.abs(fine["energy.balance"]).max() < 1e-5 * fine["energy.work"].max()
-
-
-@pytest.mark.parametrize("speed", [1e-5, -1e-5])
-def test_a_valve_that_opens_very_slowly_cuts_no_step_again_and_again(speed: float) -> None:
-    # less than rounding counts in a step, more in a hundred: the program once gave up
-    leg = replace(leg_cases.CYLINDER, check_valve=CheckValve(), line=leg_cases.LINE, trapped_air=leg_cases.AIR)
-    scene = replace(leg_cases.on_cylinder(speed), actuators={"leg0": leg}, duration=1e-3, record_period=1e-5)
-    run, known = (
-        simulate(replace(scene, formulation=one, step=1e-5, solver=SolverSettings(tolerance=1e-10)))
-        for one in ("exudyn", "compiled")
-    )
-    assert run.counts.cut_steps <= 1
-    assert [one[1:] for one in run.oil_events["leg0"]] == [one[1:] for one in known.oil_events["leg0"]]
-    rise = known["leg0.pressure"] - known["leg0.pressure"][0]
-    np.testing.assert_allclose(
-        run["leg0.pressure"] - run["leg0.pressure"][0], rise, atol=1e-2 * np.abs(rise).max()
-    )
