@@ -105,7 +105,7 @@ class Scratch(NamedTuple):
 
     right, impulses: a number a row. end, probe, slope, along: states; see `stabilised`. path: of the
     interpolation. rates: of a step's stages. now, then: contacts at its start and end.
-    going: what the next step needs, by its indices. report: counts, and where the run stopped.
+    going, report: one record each, see `GOING` and `REPORT`.
     weights: one over the largest error of a step, for each component of the state.
     times: of the records [s], from 0; rows: the records. forces: whether these need accelerations and what
     joints carry.
@@ -123,8 +123,8 @@ class Scratch(NamedTuple):
     rates: Matrix
     now: Records
     then: Records
-    going: Vector
-    report: Vector
+    going: Records
+    report: Records
     weights: Vector
     times: Vector
     rows: Matrix
@@ -142,28 +142,16 @@ def leg_arrays(legs: LegArrays) -> LegArrays | None:
 STAGES = 7  # of a step
 MOST_OIL_EVENTS = 100_000
 
-# What the next step needs: whether a run is in the midst of a segment, time, next step, last error; the fastest
+# what the next step needs: whether a run is in the midst of a segment, time, next step, last error; the fastest
 # decay, above 0 while steps are stabilised; the explicit step before these; steps since it was looked for; how
 # many steps have lately been cut where a law begins or ceases to ask for tension, and for how many more none is
-MIDST, AT, NEXT_STEP, LAST_ERROR, DECAY, EXPLICIT_STEP, STIFF_STEPS, CUT_STEPS, UNCUT, GOING = range(10)
+GOING = record_of("", "midst at next_step last_error decay explicit_step stiff_steps cut_steps uncut")
 # what a run counts and where it stopped
-(
-    STEPS,
-    EVALUATIONS,
-    ACCEPTED,
-    CUTS,
-    CLAMPED,
-    IMPACTS,
-    JUMP_ENERGY,
-    RECORDS,
-    STOPPED_AT,
-    LAST_STEP,
-    NOT_A_NUMBER,
-    STIFF,
-    OIL_EVENTS,
-    NODES,
-    REPORT,
-) = range(15)
+REPORT = record_of(
+    "",
+    "steps evaluations accepted cuts clamped impacts jump_energy records stopped_at last_step not_a_number "
+    "stiff oil_events nodes",
+)
 FINISHED, STUCK, TOO_MANY_STEPS, TOO_MANY_IMPACTS, DEAD_CENTRE, PAUSED, TOO_MANY_OIL_EVENTS = range(7)
 LOSSES = 3  # last components of the state: damping, friction, and the work of what drives
 DAMPING_LOSS, FRICTION_LOSS, WORK = -3, -2, -1

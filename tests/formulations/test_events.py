@@ -13,8 +13,8 @@ from hypothesis import assume, example, given
 from hypothesis import strategies as st
 from numpy.polynomial import Polynomial
 
-from support_exudyn.formulations.compiled import events, landing
-from support_exudyn.scene.arrays import CONTACT, IMPACTS, REPORT
+from support_exudyn.formulations.compiled import events
+from support_exudyn.scene.arrays import CONTACT, REPORT
 from tests.formulations.plain import plain
 
 C = 10.0  # clearance [m], large: dips of a thousandth of a step are then far above what is called still
@@ -188,8 +188,9 @@ def test_contacts_that_meet_or_part_at_the_same_instant_do_so_together(what: int
     contacts = np.zeros(3, CONTACT).view(np.recarray)
     contacts.state, contacts.rate, contacts.closed = -1, 0.3 if meets else -0.3, 0.0 if meets else 1.0
     contacts.depth = 0.0, 0.5 * events.TOGETHER, 2.0 * events.TOGETHER  # the last does so at another instant
-    onsets, report = np.zeros((3, 5)), np.zeros(REPORT)
+    report = np.zeros(1, REPORT).view(np.recarray)
+    room = SimpleNamespace(onsets=np.zeros((3, 5)), report=report)
     scene = SimpleNamespace(contacts=contacts)
-    assert plain(landing.happen)(scene, 0, what, 1.0, np.zeros(1), onsets, report)
+    assert plain(events.happen)(scene, room, 0, what, 1.0, np.zeros(1))
     np.testing.assert_array_equal(contacts.closed, [1.0, 1.0, 0.0] if meets else [0.0, 0.0, 1.0])
-    assert report[IMPACTS] == (2 if meets else 0)
+    assert report[0].impacts == (2 if meets else 0)

@@ -1,4 +1,4 @@
-"""What happens to contacts within a step that has been tried, and where.
+"""What happens to contacts within a step that has been tried, where, and the step made again to end there.
 
 A step is looked at in parts. Over a part a depth is the cubic of `roots`; where that leaves in doubt whether
 something happens, the step is too long, and is made again shorter.
@@ -6,11 +6,11 @@ something happens, the step is too long, and is made again shorter.
 
 import math
 
-from support_exudyn.formulations.compiled.step import within
-from support_exudyn.scene.arrays import Matrix, Records, SceneArrays, Vector
+from support_exudyn.formulations.compiled.step import advance, within
+from support_exudyn.scene.arrays import STAGES, Matrix, Records, SceneArrays, Scratch, Vector
 from support_exudyn.scene.compilation import compiled, once
 from support_exudyn.scene.forces import observe, press
-from user_forces.roots import Bracket, DepthPath, depth_at, doubt, first_rise, may_turn, turn, zero_of
+from user_forces.roots import Bracket, DepthPath, depth_at, doubt, first_rise, may_turn, narrowed, turn, zero_of
 
 # CUT: the law begins or ceases to ask for tension
 NOTHING, IMPACT, SEPARATION, CUT, TOO_LONG = range(5)
@@ -22,6 +22,9 @@ NEAR_CUT = 0.5  # PUSH below which a step is looked at for two cuts,
 CUT_SAMPLES = 4  # in so many parts
 AT_ZERO = 1e-13  # depth [m] that is an impact or separation just made; those are met to a tenth of it
 TOGETHER = 10.0 * AT_ZERO  # depth [m] within which contacts meet or part at the same instant
+FIRST = 1e-3  # of a step: the least that is tried first to land on an event
+LANDED = 1e-14  # depth [m] at which an impact or separation is met; rounding of the posture is some 1e-16
+LANDINGS = 12
 Found = tuple[int, float]  # what, and the fraction of the step at which it happens
 
 
@@ -163,3 +166,121 @@ def first_event(
         if what != NOTHING and x < at:
             first, happens, at = n, what, x
     return first, happens, at
+
+
+# --- steps made again ---
+
+
+@compiled
+def copy_contacts(source: Records, target: Records) -> None:
+    """Copy all contacts."""
+    for n in range(source.size):
+        target[n] = source[n]
+
+
+@compiled
+def met_before(n: int, start: Records, end: Records) -> int:
+    """Another contact that has met or parted in a step that ends where something happens to contact n; else -1.
+
+    When it happens is only known to a share of the longer step, so that the later one may be landed on first.
+    """
+    for m in range(end.size):
+        apart = start[m].closed == 0.0
+        if m != n and ((apart and end[m].depth > TOGETHER) or (not apart and end[m].depth < -TOGETHER)):
+            return m
+    return -1
+
+
+@once
+def land(
+    scene: SceneArrays, room: Scratch, n: int, t: float, h: float, what: int, x: float, y: Vector
+) -> float:
+    """Make a step of h [s] again so that it ends where something happens to a contact; its length [s].
+
+    x: the fraction of the step at which that is expected.
+
+    An impact or a separation is met by Newton's method on the depth at the end of the step. A cut of tension is
+    met by false position on `push`: while tension is cut there is no force, steps grow, and would pass over the
+    place where the force sets in again.
+    """
+    pushes = Bracket(0.0, h, float(room.now[n].push), float(scene.contacts[n].push))
+    before, after, length = 0.0, 1.1 * h, max(x, FIRST) * h  # the step made again may differ by its error
+    if what == CUT:
+        length = zero_of(pushes)
+    for tried in range(1, LANDINGS + 1):
+        advance(scene, t, length, y, room.rates, room.end, room.weights, room.right)
+        room.report[0].evaluations += STAGES - 1
+        contact = scene.contacts[n]
+        value = float(contact.push if what == CUT else contact.depth)
+        if abs(value) <= (CUT_MET if what == CUT else LANDED) or tried == LANDINGS:
+            break
+        if what == CUT:
+            pushes = narrowed(pushes, length, value)
+            length = zero_of(pushes)
+            continue
+        if (value > 0.0) == (what == IMPACT):
+            after = length
+        else:
+            before = length
+        following = length - value / contact.rate
+        if not before < following < after:
+            following = 0.5 * (before + after)
+        if following == length:
+            break
+        length = following
+    return length
+
+
+@compiled
+def separate(scene: SceneArrays, room: Scratch, n: int, t: float, y: Vector) -> None:
+    """The surfaces of a contact part at t [s]."""
+    contact, onsets = scene.contacts[n], room.onsets
+    contact.closed = contact.impact_velocity = 0.0
+    for i in range(int(room.report[0].impacts) - 1, -1, -1):
+        if onsets[i, 0] == n:
+            onsets[i, 3], onsets[i, 4] = t, max(0.0, -contact.rate)
+            break
+    if contact.state >= 0:
+        y[contact.state] = 0.0
+
+
+@compiled
+def strike(scene: SceneArrays, room: Scratch, n: int, t: float, y: Vector) -> bool:
+    """The surfaces of a contact meet at t [s]; whether there is room to note it."""
+    i, onsets = int(room.report[0].impacts), room.onsets
+    if i >= onsets.shape[0]:
+        return False
+    contact = scene.contacts[n]
+    contact.closed, contact.impact_velocity = 1.0, max(0.0, contact.rate)
+    onsets[i, 0], onsets[i, 1], onsets[i, 2] = n, t, contact.impact_velocity
+    onsets[i, 3], onsets[i, 4] = math.inf, 0.0
+    room.report[0].impacts += 1
+    if contact.state >= 0:
+        y[contact.state] = 0.0
+    return True
+
+
+@once
+def happen(scene: SceneArrays, room: Scratch, n: int, what: int, t: float, y: Vector) -> bool:
+    """Change what contacts remember as an event of contact n at t [s] does; whether there is room for it.
+
+    Contacts that meet at the same instant within rounding, as both corners of a face do, impact together; those
+    that part at the same instant separate together. Rounding then does not decide which of them comes first.
+    """
+    if what == SEPARATION:
+        separate(scene, room, n, t, y)
+    elif what == IMPACT:
+        if not strike(scene, room, n, t, y):
+            return False
+    else:
+        return True
+    for m in range(scene.contacts.size):
+        other = scene.contacts[m]
+        if m == n or abs(other.depth) > TOGETHER:
+            continue
+        if what == SEPARATION and other.closed != 0.0 and other.rate < 0.0:
+            separate(scene, room, m, t, y)
+        together = what == IMPACT and other.closed == 0.0 and other.rate > 0.0
+        if together and not strike(scene, room, m, t, y):
+            return False
+    return True

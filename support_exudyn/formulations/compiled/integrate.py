@@ -10,12 +10,16 @@ from support_exudyn.formulations.compiled.events import (
     SEPARATION,
     SHORT,
     TOO_LONG,
+    copy_contacts,
     first_event,
+    happen,
+    land,
+    met_before,
 )
-from support_exudyn.formulations.compiled.landing import copy_contacts, happen, land, met_before
 from support_exudyn.formulations.compiled.method import (
     choose_method,
     factor_of,
+    factor_over_corner,
     fit_step,
     leave_stabilised,
     try_step,
@@ -40,35 +44,15 @@ from support_exudyn.formulations.compiled.recording import (
 )
 from support_exudyn.formulations.compiled.start import begin_run, jump
 from support_exudyn.formulations.compiled.step import evaluate
-from support_exudyn.formulations.compiled.step_control import (
-    AFTER_IMPACT,
-    CLOSE,
-    SHORTEN,
-    SMALLEST_STEP,
-    factor_over_corner,
-)
 from support_exudyn.scene.arrays import (
-    ACCEPTED,
-    AT,
-    CUT_STEPS,
-    CUTS,
     DEAD_CENTRE,
-    DECAY,
     FINISHED,
-    LAST_ERROR,
-    LAST_STEP,
-    MIDST,
-    NEXT_STEP,
     PAUSED,
-    RECORDS,
     STAGES,
-    STEPS,
-    STOPPED_AT,
     STUCK,
     TOO_MANY_IMPACTS,
     TOO_MANY_OIL_EVENTS,
     TOO_MANY_STEPS,
-    UNCUT,
     Records,
     SceneArrays,
     Scratch,
@@ -78,6 +62,12 @@ from support_exudyn.scene.compilation import compiled, entry, once
 
 MOST_CUTS = 150  # of steps cut one after the other where tension begins or ceases; counted threefold
 OVERLOOKED = 500.0  # steps for which that is overlooked then
+SHORTEN = 0.25  # factor for a step in which too much happens
+SMALLEST_STEP = 1e-13  # [s]
+# Of the step before an impact is the first in it: forces begin as a broken power of time, over which a long
+# step is of low order, so that errors would not fall as the tolerance does
+AFTER_IMPACT = 0.01
+CLOSE = 1e-12  # [s]: a record that lies so little behind the end of a step belongs to it
 LEAST_ERROR = 1e-4  # by which the next step is chosen, at least
 
 
@@ -109,36 +99,36 @@ def integrate(
     """Integrate from `begin` to `stop` [s], between which all courses are smooth, or resume after a pause.
 
     Arguments:
-        room: with the first step in going[NEXT_STEP]; after a segment or a pause as it was left.
+        room: with the first step in going.next_step; after a segment or a pause as it was left.
         y: the state at the start; at the end when it returns.
         jumps: of the rates of courses at `begin`; impulses of all rows, against them, stand in `room.impulses`.
         most_steps: before giving up. pause: after so many steps it returns PAUSED, to be called again.
 
     Returns FINISHED, PAUSED or why the run cannot go on.
     """
-    going, report = room.going, room.report
-    if going[MIDST] == 0.0:
-        going[AT], going[LAST_ERROR] = begin, LEAST_ERROR
-        if report[RECORDS] == 0.0 and not begin_run(scene, room, y):
+    going, report = room.going[0], room.report[0]
+    if going.midst == 0.0:
+        going.at, going.last_error = begin, LEAST_ERROR
+        if report.records == 0.0 and not begin_run(scene, room, y):
             return DEAD_CENTRE
-        report[RECORDS] = max(1.0, report[RECORDS])
+        report.records = max(1.0, report.records)
         jump(scene, room, begin, y, jumps)
         begin_step(scene, room, begin, y)
         copy_contacts(scene.contacts, room.now)
-    while going[AT] < stop:
-        if report[STEPS] >= pause:
-            going[MIDST] = 1.0
+    while going.at < stop:
+        if report.steps >= pause:
+            going.midst = 1.0
             return PAUSED
-        report[STEPS] += 1
-        report[STOPPED_AT], report[LAST_STEP] = going[AT], going[NEXT_STEP]
-        if report[STEPS] > most_steps:
+        report.steps += 1
+        report.stopped_at, report.last_step = going.at, going.next_step
+        if report.steps > most_steps:
             return TOO_MANY_STEPS
-        if going[NEXT_STEP] < SMALLEST_STEP:
+        if going.next_step < SMALLEST_STEP:
             return STUCK
         code = take_step(scene, room, y, stop)
         if code != FINISHED:
             return code
-    going[MIDST] = 0.0
+    going.midst = 0.0
     return FINISHED
 
 
@@ -156,46 +146,46 @@ def take_step(scene: SceneArrays, room: Scratch, y: Vector, stop: float) -> int:
 
     Returns FINISHED, or why the run cannot go on.
     """
-    going, report = room.going, room.report
-    t, wanted, decay = going[AT], going[NEXT_STEP], going[DECAY]
+    going = room.going[0]
+    t, wanted, decay = going.at, going.next_step, going.decay
     h = stop - t if wanted >= 0.999999 * (stop - t) else wanted
     forget_beyond(scene.legs)
     error = try_step(scene, room, t, h, y)
     if not error <= 1.0:
-        going[NEXT_STEP] = h * min(factor_of(error, 1.0, decay), 1.0)
+        going.next_step = h * min(factor_of(error, 1.0, decay), 1.0)
         return FINISHED
     copy_contacts(scene.contacts, room.then)
     fit_step(room, decay, h, y)
     events = first_events(scene, room, h)
     shorter = shortened(scene, room, events, t, h)
     if shorter > 0.0:
-        going[NEXT_STEP] = shorter
+        going.next_step = shorter
         return FINISHED
     if events.oil == AT_ONCE:
         if not pass_gap(scene.legs, room, events.gap, t):
             return TOO_MANY_OIL_EVENTS
         begin_step(scene, room, t, y)
-        going[NEXT_STEP] = h
+        going.next_step = h
         return FINISHED
     if events.oil == GAP:
-        h = land_on_gap(scene, scene.legs, room, events.gap, t, h, y, room.weights, report)
+        h = land_on_gap(scene, scene.legs, room, events.gap, t, h, y)
         copy_contacts(scene.contacts, room.then)
         fit_step(room, 0.0, h, y)
         n, what, x = first_event(scene, h, room.now, room.then, room.path, room.probe, room.slope)
         if what == TOO_LONG:
-            going[NEXT_STEP] = h * SHORTEN
+            going.next_step = h * SHORTEN
             return FINISHED
         oil = GAP if what == NOTHING else NONE
         events = StepEvents(n, what, x, oil, events.gap)
-    follow = wanted if h >= stop - t else h * factor_of(error, going[LAST_ERROR], decay)
-    going[LAST_ERROR] = max(error, LEAST_ERROR)
+    follow = wanted if h >= stop - t else h * factor_of(error, going.last_error, decay)
+    going.last_error = max(error, LEAST_ERROR)
     return accept(scene, room, events, t, h, follow, y, stop)
 
 
 @once
 def first_events(scene: SceneArrays, room: Scratch, h: float) -> StepEvents:
     """What happens first to contacts and in legs in a step of h [s] that has been tried."""
-    if room.going[UNCUT] > 0.0:
+    if room.going[0].uncut > 0.0:
         overlook_cuts(room.now)
     n, what, x = first_event(scene, h, room.now, room.then, room.path, room.probe, room.slope)
     oil, gap = first_gap(scene.legs)
@@ -209,8 +199,8 @@ def shortened(scene: SceneArrays, room: Scratch, events: StepEvents, t: float, h
     Events are met by the explicit method.
     """
     hidden = hidden_gap(scene, scene.legs, room, t, h)
-    if room.going[DECAY] > 0.0 and (events.what != NOTHING or events.oil != NONE or hidden < 1.0):
-        return leave_stabilised(room.going, h)
+    if room.going[0].decay > 0.0 and (events.what != NOTHING or events.oil != NONE or hidden < 1.0):
+        return leave_stabilised(room, h)
     if events.what == TOO_LONG:
         return h * SHORTEN
     return h * hidden if hidden < 1.0 and h > SHORT else 0.0
@@ -233,7 +223,7 @@ def accept(
 
     follow: length of the next step [s] by the error of this one. Returns FINISHED, or why the run cannot go on.
     """
-    going, report, now, then = room.going, room.report, room.now, room.then
+    going, report, now, then = room.going[0], room.report[0], room.now, room.then
     n, what, passes = events.contact, events.what, events.oil == GAP
     was_cut = n >= 0 and now[n].push < 0.0
     if what != NOTHING and events.x < 1.0:
@@ -245,16 +235,16 @@ def accept(
     off = write_nodes(scene, room, t, h)
     if not off <= 1.0:
         begin_step(scene, room, t, y)
-        going[NEXT_STEP] = h * factor_over_corner(off)
+        going.next_step = h * factor_over_corner(off)
         return FINISHED
     end_nodes(room)
     note_peaks(scene, room, t, h)
-    report[ACCEPTED] += 1
-    report[CUTS] += what != NOTHING or passes
-    count_cuts(going, what)
+    report.accepted += 1
+    report.cuts += what != NOTHING or passes
+    count_cuts(room, what)
     write_records(scene, room, t, h, stop + CLOSE if last else t + h)
     copy_contacts(then, scene.contacts)
-    going[AT] = t = stop if last else t + h
+    going.at = t = stop if last else t + h
     for i in range(y.size):
         y[i] = room.end[i]
     if quiet:
@@ -267,7 +257,7 @@ def accept(
             return code
     if what == IMPACT:
         follow *= AFTER_IMPACT
-    going[NEXT_STEP] = choose_method(scene, room, t, h, follow, y, quiet)
+    going.next_step = choose_method(scene, room, t, h, follow, y, quiet)
     return FINISHED
 
 
@@ -283,7 +273,7 @@ def land_on_first(
     n, what, x = events.contact, events.what, events.x
     while True:
         copy_contacts(then, scene.contacts)
-        h = land(scene, n, t, h, what, x, now, y, room.rates, room.end, room.weights, room.right, room.report)
+        h = land(scene, room, n, t, h, what, x, y)
         copy_contacts(scene.contacts, then)
         m = met_before(n, now, then)
         if m < 0:
@@ -306,7 +296,7 @@ def apply_event(
     else:
         # places and factors are those of the last look at the step
         evaluate(scene, t, y, room.slope, room.right)
-        if not happen(scene, n, what, t, y, room.onsets, room.report):
+        if not happen(scene, room, n, what, t, y):
             return TOO_MANY_IMPACTS
     begin_step(scene, room, t, y)
     copy_contacts(scene.contacts, room.now)
@@ -316,17 +306,18 @@ def apply_event(
 
 
 @once
-def count_cuts(going: Vector, what: int) -> None:
+def count_cuts(room: Scratch, what: int) -> None:
     """Count the steps that end where tension begins or ceases; if there are too many, overlook it for a while.
 
     A contact that is pulled out of its bore as fast as its law allows stays where there is no pressure and no
     tension. Steps that ended there would never become long, nor be stabilised. Forces are continuous there, so
     that the error of a step says how much overlooking it matters.
     """
-    going[UNCUT] = max(0.0, going[UNCUT] - 1.0)
-    going[CUT_STEPS] = going[CUT_STEPS] + 3.0 if what == CUT else max(0.0, going[CUT_STEPS] - 1.0)
-    if going[CUT_STEPS] > MOST_CUTS:
-        going[CUT_STEPS], going[UNCUT] = 0.0, OVERLOOKED
+    going = room.going[0]
+    going.uncut = max(0.0, going.uncut - 1.0)
+    going.cut_steps = going.cut_steps + 3.0 if what == CUT else max(0.0, going.cut_steps - 1.0)
+    if going.cut_steps > MOST_CUTS:
+        going.cut_steps, going.uncut = 0.0, OVERLOOKED
 
 
 @once

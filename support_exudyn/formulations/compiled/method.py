@@ -15,37 +15,41 @@ from support_exudyn.formulations.compiled.stabilised import (
     stages_for,
 )
 from support_exudyn.formulations.compiled.step import advance, fit
-from support_exudyn.formulations.compiled.step_control import FASTEST, SAFETY, SLOWEST, factor
-from support_exudyn.scene.arrays import (
-    DECAY,
-    EVALUATIONS,
-    EXPLICIT_STEP,
-    NOT_A_NUMBER,
-    STAGES,
-    STIFF,
-    STIFF_STEPS,
-    SceneArrays,
-    Scratch,
-    Vector,
-)
+from support_exudyn.scene.arrays import STAGES, SceneArrays, Scratch, Vector
 from support_exudyn.scene.compilation import compiled, once
+
+SAFETY, SLOWEST, FASTEST = 0.9, 0.2, 8.0  # change of the step: margin, smallest and largest factor
+STEADY = 0.04  # weight of the last error in the choice of a step (Gustafsson), against hunting
+ORDER = 0.2 - 0.75 * STEADY
 
 
 @compiled
 def factor_of(error: float, before: float, decay: float) -> float:
-    """By which the next step may be longer; of the stabilised method, if there is a decay, of order 2."""
-    if not decay > 0.0:
-        return factor(error, before)
+    """By which the next step may be longer than one with this error, in units of what is allowed.
+
+    before: the error before. decay: above 0 of the stabilised method, which is of order 2.
+    """
     if not error < 1e30:
         return SLOWEST
-    return float(min(FASTEST, max(SLOWEST, SAFETY * max(error, 1e-9) ** (-1.0 / 3.0))))
+    if not decay > 0.0:
+        wanted: float = SAFETY * max(error, 1e-9) ** -ORDER * before**STEADY
+    else:
+        wanted = SAFETY * max(error, 1e-9) ** (-1.0 / 3.0)
+    return float(min(FASTEST, max(SLOWEST, wanted)))
 
 
 @compiled
-def leave_stabilised(going: Vector, h: float) -> float:
+def factor_over_corner(error: float) -> float:
+    """By which a step is shorter that is made again because of a corner within it: an error of order 2."""
+    return max(SLOWEST, SAFETY / math.sqrt(error)) if error < 1e30 else SLOWEST
+
+
+@compiled
+def leave_stabilised(room: Scratch, h: float) -> float:
     """Go on by the explicit method; the step [s] that it takes, at most that of its stability."""
-    h = min(h, STIFF_AT / going[DECAY])
-    going[DECAY] = going[STIFF_STEPS] = 0.0
+    going = room.going[0]
+    h = min(h, STIFF_AT / going.decay)
+    going.decay = going.stiff_steps = 0.0
     return h
 
 
@@ -57,41 +61,41 @@ def choose_method(
 
     follow: that length by the error of the last step. quiet: whether the last step ended without an event.
     """
-    going = room.going
-    going[STIFF_STEPS] += 1
-    decay = going[DECAY]
+    going = room.going[0]
+    going.stiff_steps += 1
+    decay = going.decay
     stabilised = decay > 0.0
-    if stabilised and follow * (STAGES - 1) < going[EXPLICIT_STEP] * stages_for(follow * decay):
-        return leave_stabilised(going, follow)  # the explicit method needs fewer evaluations
-    if going[STIFF_STEPS] < (RENEWED if stabilised else PATIENCE) or not (stabilised or quiet):
+    if stabilised and follow * (STAGES - 1) < going.explicit_step * stages_for(follow * decay):
+        return leave_stabilised(room, follow)  # the explicit method needs fewer evaluations
+    if going.stiff_steps < (RENEWED if stabilised else PATIENCE) or not (stabilised or quiet):
         return min(follow, longest(decay)) if stabilised else follow
-    going[STIFF_STEPS] = 0.0
-    room.report[EVALUATIONS] += ROUNDS
+    going.stiff_steps = 0.0
+    room.report[0].evaluations += ROUNDS
     decay = fastest_decay(scene, t, y, room.rates, room.along, room.weights, room.right)
     if stabilised:
         if not STIFF_AT < follow * decay < math.inf:
-            return leave_stabilised(going, follow)
+            return leave_stabilised(room, follow)
         follow = min(follow, longest(decay))
     elif STIFF_AT < max(h, follow) * decay < math.inf:
-        going[EXPLICIT_STEP], follow = h, AT_FIRST * h
+        going.explicit_step, follow = h, AT_FIRST * h
     else:
         return follow
-    going[DECAY] = decay
+    going.decay = decay
     return follow
 
 
 @once
 def try_step(scene: SceneArrays, room: Scratch, t: float, h: float, y: Vector) -> float:
     """Try a step of h [s] from t by the method that is on; its error in units of what is allowed."""
-    decay, report = room.going[DECAY], room.report
+    decay, report = room.going[0].decay, room.report[0]
     if decay > 0.0:
-        report[EVALUATIONS] += stages_for(h * decay)
-        report[STIFF] += 1
+        report.evaluations += stages_for(h * decay)
+        report.stiff += 1
         error = advance_stabilised(scene, t, h, decay, y, room.rates, room.end, room.weights, room.right)
     else:
-        report[EVALUATIONS] += STAGES - 1
+        report.evaluations += STAGES - 1
         error = advance(scene, t, h, y, room.rates, room.end, room.weights, room.right)
-    report[NOT_A_NUMBER] = 1.0 if math.isnan(error) else 0.0
+    report.not_a_number = 1.0 if math.isnan(error) else 0.0
     return error
 
 

@@ -9,7 +9,7 @@ import math
 
 from support_exudyn.formulations.compiled.step import advance, close_joints, evaluate, within
 from support_exudyn.model.hydraulics.valves import SHUT
-from support_exudyn.scene.arrays import EVALUATIONS, OIL_EVENTS, STAGES, SceneArrays, Scratch, Vector
+from support_exudyn.scene.arrays import STAGES, SceneArrays, Scratch, Vector
 from support_exudyn.scene.compilation import compiled
 from support_exudyn.scene.hydraulics.records import LegArrays
 from user_forces.roots import PEAK_LOOKS, Bracket, StepPeak, narrowed, peak_place, peak_with, zero_of
@@ -93,15 +93,7 @@ def hidden_gap(scene: SceneArrays, legs: LegArrays | None, room: Scratch, t: flo
 
 @compiled
 def land_on_gap(
-    scene: SceneArrays,
-    legs: LegArrays | None,
-    room: Scratch,
-    k: int,
-    t: float,
-    h: float,
-    y: Vector,
-    weights: Vector,
-    report: Vector,
+    scene: SceneArrays, legs: LegArrays | None, room: Scratch, k: int, t: float, h: float, y: Vector
 ) -> float:
     """Make a step of h [s] again so that it ends where a gap of a leg passes zero; its length [s].
 
@@ -112,8 +104,8 @@ def land_on_gap(
     bracket, length = Bracket(0.0, h, legs.gaps[k].before, legs.gaps[k].now), h
     for _ in range(LOOKS):
         length = zero_of(bracket)
-        advance(scene, t, length, y, room.rates, room.end, weights, room.right)
-        report[EVALUATIONS] += STAGES - 1
+        advance(scene, t, length, y, room.rates, room.end, room.weights, room.right)
+        room.report[0].evaluations += STAGES - 1
         if abs(legs.gaps[k].now) <= legs.gaps[k].near:
             break
         bracket = narrowed(bracket, length, legs.gaps[k].now)
@@ -125,7 +117,7 @@ def pass_gap(legs: LegArrays | None, room: Scratch, k: int, t: float) -> bool:
     """A gap passes zero at t [s]: note it, change what a valve remembers; whether there is room."""
     if legs is None:
         return False
-    i, gap = int(room.report[OIL_EVENTS]), legs.gaps[k]
+    i, gap = int(room.report[0].oil_events), legs.gaps[k]
     if i >= room.oil_events.shape[0]:
         return False
     gap.side = -gap.side
@@ -133,5 +125,5 @@ def pass_gap(legs: LegArrays | None, room: Scratch, k: int, t: float) -> bool:
         legs.valves[gap.valve].memory = 1.0 if gap.side > 0.0 else 0.0
     row = room.oil_events[i]
     row[0], row[1], row[2] = t, k, gap.side
-    room.report[OIL_EVENTS] += 1
+    room.report[0].oil_events += 1
     return True

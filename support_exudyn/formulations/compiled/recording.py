@@ -2,23 +2,11 @@
 
 import math
 
-from support_exudyn.formulations.compiled.events import look
-from support_exudyn.formulations.compiled.landing import copy_contacts
+from support_exudyn.formulations.compiled.events import copy_contacts, look
 from support_exudyn.formulations.compiled.stabilised import square_of
 from support_exudyn.formulations.compiled.step import WEIGHTS, close_joints, combine, evaluate, within
 from support_exudyn.formulations.statistics.steps import INNER, OF_STEP
-from support_exudyn.scene.arrays import (
-    CLAMPED,
-    CONTACT_NUMBERS,
-    DECAY,
-    NODES,
-    RECORDS,
-    STAGES,
-    Matrix,
-    SceneArrays,
-    Scratch,
-    Vector,
-)
+from support_exudyn.scene.arrays import CONTACT_NUMBERS, STAGES, Matrix, SceneArrays, Scratch, Vector
 from support_exudyn.scene.compilation import compiled, once
 from support_exudyn.scene.forces import observe, press
 from support_exudyn.scene.motion import follow_courses, place
@@ -98,7 +86,7 @@ def evaluate_record(scene: SceneArrays, room: Scratch, t: float, forced: bool) -
 def begin_nodes(scene: SceneArrays, room: Scratch, t: float, y: Vector) -> None:
     """Write the node at t [s] that the next step begins with, as it has been evaluated."""
     if room.nodes.size > 0:
-        write_record(scene, t, y, room.rates[0], room.nodes[OF_STEP * int(room.report[NODES])])
+        write_record(scene, t, y, room.rates[0], room.nodes[OF_STEP * int(room.report[0].nodes)])
 
 
 @once
@@ -109,10 +97,10 @@ def write_nodes(scene: SceneArrays, room: Scratch, t: float, h: float) -> float:
     of what is allowed; 0 of a stabilised step. Where a force has a corner within the step, that is half of the
     true error in the median of all places; the embedded pair shows 5 %. Of smooth rates it is of order 6.
     """
-    nodes, rates, explicit = room.nodes, room.rates, room.going[DECAY] == 0.0
+    nodes, rates, explicit = room.nodes, room.rates, room.going[0].decay == 0.0
     if nodes.size == 0 and not explicit:
         return 0.0
-    first = OF_STEP * int(room.report[NODES])
+    first = OF_STEP * int(room.report[0].nodes)
     if nodes.size > 0:
         write_record(scene, t + h, room.end, rates[STAGES - 1], nodes[first + 3])
     off = rates[1]  # which the interpolation has no weight for
@@ -137,10 +125,10 @@ def end_nodes(room: Scratch) -> None:
     """Keep the nodes of a step that stands, and begin the next with its last."""
     nodes = room.nodes
     if nodes.size > 0:
-        first = OF_STEP * int(room.report[NODES])
+        first = OF_STEP * int(room.report[0].nodes)
         for i in range(nodes.shape[1]):
             nodes[first + OF_STEP, i] = nodes[first + 3, i]
-        room.report[NODES] += 1
+        room.report[0].nodes += 1
 
 
 @once
@@ -155,17 +143,17 @@ def note_peaks(scene: SceneArrays, room: Scratch, t: float, h: float) -> None:
                 if max(peak.top, final) > then[m].largest:
                     then[m].largest = max(peak.top, final)
                     then[m].largest_at = t + h * (peak.at if peak.top > final else 1.0)
-        room.report[CLAMPED] += then[m].push < 0.0
+        room.report[0].clamped += then[m].push < 0.0
 
 
 @once
 def write_records(scene: SceneArrays, room: Scratch, t: float, h: float, until: float) -> None:
     """Write the records within a step of h [s] from t, up to `until` [s]."""
-    n, times = int(room.report[RECORDS]), room.times
+    n, times = int(room.report[0].records), room.times
     while n < times.size and times[n] <= until:
         within(room.path, min(1.0, (times[n] - t) / h), 0, room.probe.size, room.probe)
         close_joints(scene, times[n], room.probe, room.right)
         evaluate_record(scene, room, times[n], room.forces)
         write_record(scene, times[n], room.probe, room.slope, room.rows[n])
         n += 1
-    room.report[RECORDS] = n
+    room.report[0].records = n

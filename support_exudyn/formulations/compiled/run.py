@@ -18,26 +18,13 @@ from support_exudyn.model.hydraulics.inlets import Inlet
 from support_exudyn.scenario.recorded_channels import needs
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scene.arrays import (
-    ACCEPTED,
-    AT,
-    CLAMPED,
-    CUTS,
     DEAD_CENTRE,
-    EVALUATIONS,
     FINISHED,
     GOING,
-    IMPACTS,
-    JUMP_ENERGY,
-    LAST_STEP,
     MOST_OIL_EVENTS,
-    NEXT_STEP,
-    NODES,
-    NOT_A_NUMBER,
-    OIL_EVENTS,
     PAUSED,
     REPORT,
     STAGES,
-    STOPPED_AT,
     STUCK,
     TOO_MANY_IMPACTS,
     TOO_MANY_OIL_EVENTS,
@@ -81,7 +68,7 @@ class _Run:
         count = OF_STEP * self.at_once + 1 if self.statistics.wanted else 0
         self.nodes = np.empty((1 + count, width))  # of steps, behind the record at the start
         self.room = self._scratch(width)
-        self.rows, self.report = self.room.rows, self.room.report
+        self.rows, self.report = self.room.rows, self.room.report[0]
         self.impulses: list[Impulse] = []
         self.code = FINISHED
 
@@ -90,9 +77,9 @@ class _Run:
         model, tolerance = self.model, self.scenario.solver.tolerance
         scene, states = model.scene, self.y.size
         weights = error_weights(model, self.y, tolerance)
-        going = np.zeros(GOING)
+        going = np.zeros(1, GOING)
         # steps that only growth limits follow the tolerance too, or runs at several tolerances would be alike
-        going[NEXT_STEP] = FIRST_STEP * min(1.0, (tolerance / AT_FIRST) ** 0.2)
+        going["next_step"] = FIRST_STEP * min(1.0, (tolerance / AT_FIRST) ** 0.2)
         return Scratch(
             right=np.zeros(scene.rows.size),
             impulses=np.zeros(scene.rows.size),
@@ -105,7 +92,7 @@ class _Run:
             now=scene.contacts.copy(),
             then=scene.contacts.copy(),
             going=going,
-            report=np.zeros(REPORT),
+            report=np.zeros(1, REPORT),
             weights=weights,
             times=model.times,
             rows=np.zeros((model.times.size, width)),
@@ -130,7 +117,7 @@ class _Run:
             while (code := integrate(model.scene, self.room, self.y, begin, end, jumps, most, pause)) == PAUSED:
                 self.take_nodes()
                 pause += self.at_once
-                progress(float(self.room.going[AT] / scenario.duration))
+                progress(float(self.room.going[0]["at"] / scenario.duration))
             held = model.scene.joints["course"]
             if jumps[held[held >= 0]].any():  # oil gives way
                 self._note_jump(begin)
@@ -140,7 +127,7 @@ class _Run:
 
     def take_nodes(self) -> None:
         """Take the nodes of the steps since the last pause into the statistics."""
-        count = int(self.report[NODES])
+        count = int(self.report["nodes"])
         if count > 0:
             nodes = self.room.nodes
             self.nodes[0] = self.rows[0]
@@ -148,13 +135,13 @@ class _Run:
             time = rows[1:, 0].reshape(count, OF_STEP).copy()
             rows[1:, 0] = within_steps(time).ravel()
             self.statistics.add(time, trajectory(self.model, rows, _oil_events(self), self.statistics.needs))
-            nodes[0], self.report[NODES] = nodes[OF_STEP * count], 0.0
+            nodes[0], self.report["nodes"] = nodes[OF_STEP * count], 0.0
 
     def stop_before_first_nan(self) -> None:
         """Mark the run as stopped at its first record that is not finite, in the posture that leads there."""
         first = int(np.argmin(np.isfinite(self.rows.sum(axis=1))))
-        self.code, self.report[NOT_A_NUMBER] = STUCK, 1.0
-        self.report[STOPPED_AT] = self.model.times[first]
+        self.code, self.report["not_a_number"] = STUCK, 1.0
+        self.report["stopped_at"] = self.model.times[first]
         if first > 0:
             count, last = 3 * self.model.scene.bodies.size, self.rows[first - 1]
             self.y[: 2 * count] = last[1 : 1 + 2 * count]
@@ -179,7 +166,7 @@ class _Run:
         cranks = {name: found.pop(name) for name in self.scenario.linkage.cranks}
         held = self.scenario.held.kinetics.constraints
         joints = joint_impulses(held, self.room.impulses[self.model.order])
-        self.impulses.append(Impulse(t, found, float(self.report[JUMP_ENERGY]), cranks, joints))
+        self.impulses.append(Impulse(t, found, float(self.report["jump_energy"]), cranks, joints))
 
 
 def run(scenario: Scenario, progress: Progress) -> Outcome:
@@ -198,7 +185,7 @@ def run(scenario: Scenario, progress: Progress) -> Outcome:
 def _outcome(going: _Run) -> Outcome:
     model, report = going.model, going.report
     impacts: dict[str, list[Onset]] = {name: [] for name in model.contacts}
-    for number, *onset in going.room.onsets[: int(report[IMPACTS])].tolist():
+    for number, *onset in going.room.onsets[: int(report["impacts"])].tolist():
         impacts[model.contacts[int(number)]].append(Onset(*onset))
     contacts, events = model.scene.contacts, _oil_events(going)
     return Outcome(
@@ -210,10 +197,10 @@ def _outcome(going: _Run) -> Outcome:
         oil_events=events,
         statistics=going.statistics.finished(),
         counts=Counts(
-            steps=int(report[ACCEPTED]),
-            cut_steps=int(report[CUTS]),
-            evaluations=int(report[EVALUATIONS]),
-            clamped_steps=int(report[CLAMPED]),
+            steps=int(report["accepted"]),
+            cut_steps=int(report["cuts"]),
+            evaluations=int(report["evaluations"]),
+            clamped_steps=int(report["clamped"]),
         ),
     )
 
@@ -224,7 +211,7 @@ def _oil_events(going: _Run) -> dict[str, tuple[OilEvent, ...]]:
     if arrays is None:
         return {}
     found: dict[str, list[OilEvent]] = {name: [] for name in legs.names if going.scenario.legs[name].elements}
-    for t, k, side in going.room.oil_events[: int(going.report[OIL_EVENTS])].tolist():
+    for t, k, side in going.room.oil_events[: int(going.report["oil_events"])].tolist():
         leg = legs.names[arrays.gaps[int(k)]["leg"]]
         found[leg].append(OilEvent(t, legs.gaps[int(k)], side > 0.0))
     return {name: tuple(events) for name, events in found.items()}
@@ -234,10 +221,10 @@ def _failure(going: _Run) -> Failure:
     """Why a run stopped."""
     report, scenario = going.report, going.scenario
     count = 3 * len(scenario.linkage.bodies)
-    state = {"step": float(report[LAST_STEP])}
+    state = {"step": float(report["last_step"])}
     for n, name in enumerate(scenario.linkage.bodies):
         state[f"{name}.angular_velocity"] = float(going.y[count + 3 * n + 2])
-    state["impacts"] = float(report[IMPACTS])
+    state["impacts"] = float(report["impacts"])
     code, legs = going.code, going.model.scene.legs
     if code == TOO_MANY_STEPS:
         reason, advice = (
@@ -258,13 +245,13 @@ def _failure(going: _Run) -> Failure:
         reason, advice = singular, change_points.ADVICE
     elif code == DEAD_CENTRE:
         reason, advice = "the linkage is at a dead centre", CLOSES
-    elif report[NOT_A_NUMBER]:
+    elif report["not_a_number"]:
         reason, advice = "the linkage cannot close, or a value is no longer a finite number", CLOSES
     else:
         reason, advice = "the step became too short", SHORT
     if advice in (CLOSES, SHORT) and scenario.friction_laws:
         advice += f"{JAMS}{', '.join(scenario.friction_laws)}."
-    return Failure(reason, advice, float(report[STOPPED_AT]), state)
+    return Failure(reason, advice, float(report["stopped_at"]), state)
 
 
 def _pressed_through(going: _Run) -> str:

@@ -9,7 +9,7 @@ from support_exudyn.formulations.compiled.step import evaluate
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.kinetics import kinetics_of
 from support_exudyn.scenario.scenario import Scenario
-from support_exudyn.scene.arrays import JUMP_ENERGY, LOSSES, WORK, SceneArrays, Scratch, Vector
+from support_exudyn.scene.arrays import LOSSES, WORK, SceneArrays, Scratch, Vector
 from support_exudyn.scene.compilation import compiled, once
 from support_exudyn.scene.equilibrium import settle
 from support_exudyn.scene.hydraulics.fill import weigh_states
@@ -157,5 +157,5 @@ def jump(scene: SceneArrays, room: Scratch, t: float, y: Vector, jumps: Vector) 
         y[i], y[i + 1], y[i + 2] = y[i] + body.ax, y[i + 1] + body.ay, y[i + 2] + body.a
     for n in range(scene.rows.size):
         room.impulses[n] = scene.rows[n].held
-    room.report[JUMP_ENERGY] = kinetic_energy(scene, y) - before
-    y[WORK] += room.report[JUMP_ENERGY]
+    room.report[0].jump_energy = kinetic_energy(scene, y) - before
+    y[WORK] += room.report[0].jump_energy
