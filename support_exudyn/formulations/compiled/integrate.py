@@ -53,7 +53,6 @@ from support_exudyn.scene.arrays import (
     TOO_MANY_IMPACTS,
     TOO_MANY_OIL_EVENTS,
     TOO_MANY_STEPS,
-    Records,
     SceneArrays,
     Scratch,
     Vector,
@@ -156,7 +155,13 @@ def take_step(scene: SceneArrays, room: Scratch, y: Vector, stop: float) -> int:
         return FINISHED
     copy_contacts(scene.contacts, room.then)
     fit_step(room, decay, h, y)
-    events = first_events(scene, room, h)
+    if going.uncut > 0.0:  # let contacts be where tension begins, on their side, so that no step beyond is cut
+        for n in range(room.now.size):
+            if abs(room.now[n].push) > CUT_MET:
+                room.now[n].push = CUT_MET if room.now[n].push > 0.0 else -CUT_MET
+    n, what, x = first_event(scene, h, room.now, room.then, room.path, room.probe, room.slope)
+    oil, gap = first_gap(scene.legs)
+    events = StepEvents(n, what, x, oil, gap)
     shorter = shortened(scene, room, events, t, h)
     if shorter > 0.0:
         going.next_step = shorter
@@ -180,16 +185,6 @@ def take_step(scene: SceneArrays, room: Scratch, y: Vector, stop: float) -> int:
     follow = wanted if h >= stop - t else h * factor_of(error, going.last_error, decay)
     going.last_error = max(error, LEAST_ERROR)
     return accept(scene, room, events, t, h, follow, y, stop)
-
-
-@once
-def first_events(scene: SceneArrays, room: Scratch, h: float) -> StepEvents:
-    """What happens first to contacts and in legs in a step of h [s] that has been tried."""
-    if room.going[0].uncut > 0.0:
-        overlook_cuts(room.now)
-    n, what, x = first_event(scene, h, room.now, room.then, room.path, room.probe, room.slope)
-    oil, gap = first_gap(scene.legs)
-    return StepEvents(n, what, x, oil, gap)
 
 
 @once
@@ -318,11 +313,3 @@ def count_cuts(room: Scratch, what: int) -> None:
     going.cut_steps = going.cut_steps + 3.0 if what == CUT else max(0.0, going.cut_steps - 1.0)
     if going.cut_steps > MOST_CUTS:
         going.cut_steps, going.uncut = 0.0, OVERLOOKED
-
-
-@once
-def overlook_cuts(contacts: Records) -> None:
-    """Let contacts be where tension begins, on their side of it, so that a step beyond is not cut."""
-    for n in range(contacts.size):
-        if abs(contacts[n].push) > CUT_MET:
-            contacts[n].push = CUT_MET if contacts[n].push > 0.0 else -CUT_MET

@@ -257,8 +257,7 @@ def _failure(going: _Run) -> Failure:
 def _pressed_through(going: _Run) -> str:
     """The message that a piston is beyond an end of its cylinder where the run stopped; empty: none is."""
     linkage, size = going.scenario.linkage, 3 * len(going.scenario.linkage.bodies)
-    position, rates = going.y[None, :size], going.y[None, size : 2 * size]
-    motion = BodyMotion(linkage, position, rates)
+    motion = BodyMotion(linkage, going.y[None, :size], going.y[None, size : 2 * size])
     lengths = {name: motion.lengthening(one)[0][0] for name, one in linkage.actuators.items()}
     return past_ends(going.scenario, lengths)
 

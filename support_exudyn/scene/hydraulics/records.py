@@ -77,11 +77,4 @@ class LegArrays(NamedTuple):
 
     def copies(self) -> "LegArrays":
         """Return a copy in which a run may change all arrays."""
-        return LegArrays(
-            self.records.copy(),
-            self.chambers.copy(),
-            self.valves.copy(),
-            self.pumps.copy(),
-            self.gaps.copy(),
-            self.numbers.copy(),
-        )
+        return LegArrays(*(part.copy() for part in self))

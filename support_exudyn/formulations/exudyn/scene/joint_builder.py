@@ -40,7 +40,7 @@ from exudyn.itemInterface import (
 
 from support_exudyn.formulations.exudyn.scene.driven_parts import DrivenPart
 from support_exudyn.formulations.exudyn.scene.joint_friction import JointFriction
-from support_exudyn.formulations.exudyn.scene.sections import ends
+from support_exudyn.formulations.exudyn.scene.sections import ends as bearing_ends
 from support_exudyn.mechanics.body_motion import COORDINATES, UNTURNED, SpatialMotion, parameter_rates
 from support_exudyn.mechanics.constraints import (
     SHIFTS,
@@ -55,7 +55,6 @@ from support_exudyn.mechanics.joint_friction import FrictionJoint
 from support_exudyn.mechanics.kinetics import Matrix, kinetics_of
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.linkage import GROUND
-from support_exudyn.model.spatial_linkage import Bearing
 from support_exudyn.model.to_space import at
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.value import Vector2
@@ -177,46 +176,48 @@ class JointBuilder:
 
     def add_joints(self, rows: Iterable[Constraint]) -> None:
         """Add the joints that hold these rows."""
-        adders: dict[str, Any] = {
-            "pins": self.add_pin,
-            "actuators": self.add_rigid_actuator,
-            "cranks": self.add_crank,
-            "slides": self.add_slide,
-            "gears": self.add_gear,
-            "bearings": self.add_bearing,
-        }
         kinds: dict[tuple[str, str], set[Kind]] = {}
         for row in rows:
             kinds.setdefault((row.part, row.name), set()).add(row.kind)
         for (part, name), held in kinds.items():
-            joint = adders[part](getattr(self.linkage, part)[name], held)
+            joint = self._joint(part, getattr(self.linkage, part)[name], held)
             self.joints[part, name] = self.mbs.AddObject(joint)
 
-    def add_pin(self, pin: Any, held: Collection[Kind]) -> Any:
-        """An ideal pin of the plane."""
-        ends = self.marker(pin.first, pin.first_point), self.marker(pin.second, pin.second_point)
-        return ObjectJointRevolute2D(markerNumbers=[*ends])
-
-    def add_rigid_actuator(self, actuator: Any, held: Collection[Kind]) -> Any:
-        """What holds the ends of an actuator apart."""
-        return ObjectConnectorDistance(markerNumbers=self.ends(actuator), distance=actuator.start_length)
-
-    def add_crank(self, crank: Any, held: Collection[Kind]) -> Any:
-        """What holds a crank's angle."""
-        return ObjectConnectorCoordinate(markerNumbers=[self.fixed, self.turn(crank.body)])
-
-    def add_slide(self, slide: Any, held: Collection[Kind]) -> Any:
-        """A guide of the plane."""
-        # the moment is about the first marker, which therefore is the body's; the normal is the second one's
-        c, s = math.cos(slide.direction), math.sin(slide.direction)
-        return ObjectJointPrismatic2D(
-            markerNumbers=[self.marker(slide.body, slide.point), self.marker(slide.against, slide.point)],
-            axisMarker0=[c, s, 0.0],
-            normalMarker1=[-s, c, 0.0],
-            constrainRotation=not slide.turns,
+    def _joint(self, part: str, one: Any, held: Collection[Kind]) -> Any:
+        """The engine's joint of a part of the linkage that holds these kinds of rows."""
+        if part == "pins":
+            ends = self.marker(one.first, one.first_point), self.marker(one.second, one.second_point)
+            return ObjectJointRevolute2D(markerNumbers=[*ends])
+        if part == "actuators":
+            return ObjectConnectorDistance(markerNumbers=self.ends(one), distance=one.start_length)
+        if part == "cranks":
+            return ObjectConnectorCoordinate(markerNumbers=[self.fixed, self.turn(one.body)])
+        if part == "slides":
+            # the moment is about the first marker, which is the body's; the normal is the second one's
+            c, s = math.cos(one.direction), math.sin(one.direction)
+            return ObjectJointPrismatic2D(
+                markerNumbers=[self.marker(one.body, one.point), self.marker(one.against, one.point)],
+                axisMarker0=[c, s, 0.0],
+                normalMarker1=[-s, c, 0.0],
+                constrainRotation=not one.turns,
+            )
+        if part == "gears":
+            return self._gear(one)
+        # the joint of space with the fewest constraints
+        markers = [self.frame(end.body, end.point, frame_of(end.axis)) for end in bearing_ends(one, "first")]
+        if all(kind in held for kind in SHIFTS + TILTS):
+            return ObjectJointRevoluteZ(markerNumbers=markers)
+        shifts, tilts = ([int(kind in held) for kind in some] for some in (SHIFTS, TILTS))
+        # A spherical joint counts in the directions of the ground. If the first body turns, both directions
+        # across z span the same plane as long as it turns about z: nothing is held along its bearing.
+        in_ground_axes = np.array_equal(frame_of(one.first_axis), np.eye(3)) and (
+            one.first == GROUND or "along" not in held
         )
+        if not any(tilts) and in_ground_axes:
+            return ObjectJointSpherical(markerNumbers=markers, constrainedAxes=shifts)
+        return ObjectJointGeneric(markerNumbers=markers, constrainedAxes=[*shifts, *tilts, int("turn" in held)])
 
-    def add_gear(self, gear: Any, held: Collection[Kind]) -> Any:
+    def _gear(self, gear: Any) -> Any:
         """What holds the turns of two bodies against their carrier in proportion."""
         shares = {gear.first: gear.ratio, gear.carrier or GROUND: 1.0 - gear.ratio}
         turning = {body: share for body, share in shares.items() if body in self.bodies}
@@ -233,17 +234,6 @@ class JointBuilder:
             scalingMarker0=np.kron([*turning.values()], TURN)[None],
             scalingMarker1=TURN[None],
         )
-
-    def add_bearing(self, bearing: Bearing, held: Collection[Kind]) -> Any:
-        """The joint of space with the fewest constraints that holds these."""
-        markers = [self.frame(end.body, end.point, frame_of(end.axis)) for end in ends(bearing, "first")]
-        if all(kind in held for kind in SHIFTS + TILTS):
-            return ObjectJointRevoluteZ(markerNumbers=markers)
-        shifts = [int(kind in held) for kind in SHIFTS]
-        tilts = [int(kind in held) for kind in TILTS]
-        if not any(tilts) and _in_ground_axes(bearing, held):
-            return ObjectJointSpherical(markerNumbers=markers, constrainedAxes=shifts)
-        return ObjectJointGeneric(markerNumbers=markers, constrainedAxes=[*shifts, *tilts, int("turn" in held)])
 
     def ends(self, actuator: Any) -> list[Any]:
         """The markers of foot and head."""
@@ -279,14 +269,3 @@ def placed(axes: Matrix, place: Series) -> list[list[float]]:
     found[:3, :3], found[:3, 3] = axes, place
     rows: list[list[float]] = found.tolist()
     return rows
-
-
-def _in_ground_axes(bearing: Bearing, held: Collection[Kind]) -> bool:
-    """Whether its directions may be those of the ground, in which the spherical joint counts.
-
-    They are if the first body is the ground; if it turns, both directions across z span the same plane as long
-    as it turns about z, which a body does whose bearing has nothing to hold along it.
-    """
-    if not np.array_equal(frame_of(bearing.first_axis), np.eye(3)):
-        return False
-    return bearing.first == GROUND or "along" not in held

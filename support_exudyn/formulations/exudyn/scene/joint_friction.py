@@ -8,7 +8,7 @@ an error of first order.
 
 import math
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, NoReturn
 
 import exudyn
 import numpy as np
@@ -106,19 +106,19 @@ class JointFriction:
             slip = more * self._slip_now(carried)
             found = self.joint.force(carried, slip, self.deflection)
             if all(map(math.isfinite, carried)) and not math.isfinite(found):
-                raise LawError(
-                    f"{name}: {type(self.law).__name__} gives a friction force of {found:g} N at {slip:.6g} "
-                    f"m/s and {math.hypot(*carried):.6g} N"
-                )
+                self._refuse(name, found, slip)
 
     def look(self, name: str) -> None:
         """Raise LawError, for what is dissipated now cannot be. A law with a state may give back energy."""
         force, slip = self._now()
         if not self.law.has_state or not math.isfinite(force):
-            raise LawError(
-                f"{name}: {type(self.law).__name__} gives a friction force of {force:.6g} N along the slip of "
-                f"{slip:.6g} m/s, {math.hypot(*self._carried()):.6g} N carried"
-            )
+            self._refuse(name, force, slip)
+
+    def _refuse(self, name: str, force: float, slip: float) -> NoReturn:
+        raise LawError(
+            f"{name}: {type(self.law).__name__} gives a friction force of {force:.6g} N along the slip of "
+            f"{slip:.6g} m/s, {math.hypot(*self._carried()):.6g} N carried"
+        )
 
     def _now(self) -> tuple[float, float]:
         """Friction force [N] and slip [m/s] at the end of the step that is tried."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 from functools import partial
 from typing import Any
 
@@ -47,14 +46,14 @@ class SceneBuilder(JointBuilder):
 
     def add_contact(self, place: ContactPlace | SectionPlace) -> JointItem:
         """Add the connector of a contact."""
-        bore, journal = self.frames(place)
-        block = isinstance(place, ContactPlace) and place.on_block  # its face turns as little as the ground
-        return JointItem(
-            self.mbs,
-            place.contact,
-            self.mount(place.bore, place.bore_point, bore, still=block),
-            self.mount(place.journal, place.journal_point, journal),
-        )
+        mounts = []
+        # the face of a block turns as little as the ground
+        still = isinstance(place, ContactPlace) and place.on_block
+        ends = (place.bore, place.bore_point, still), (place.journal, place.journal_point, False)
+        for (body, point, is_still), axes in zip(ends, self.frames(place), strict=True):
+            frame = placed(axes, self.local(body, point))
+            mounts.append(Mount(self.item(body), frame, is_still or body == GROUND))
+        return JointItem(self.mbs, place.contact, *mounts)
 
     def frames(self, place: ContactPlace | SectionPlace) -> tuple[Matrix, Matrix]:
         """Axes of bore and journal in the start posture, in columns (3, 3)."""
@@ -62,10 +61,6 @@ class SceneBuilder(JointBuilder):
             return frame_of(place.bore_end.axis), frame_of(place.journal_end.axis)
         axes = np.array(frame((0.0, 0.0), place.axes(self.scenario.linkage)))[:3, :3]
         return axes, axes
-
-    def mount(self, body: str, point: Any, axes: Matrix, still: bool = False) -> Mount:
-        """Where a bore or a journal is."""
-        return Mount(self.item(body), placed(axes, self.local(body, point)), still or body == GROUND)
 
     def contact(self, scene: EngineScene, name: str, places: list[Any], items: list[JointItem]) -> SceneContact:
         """The contact of connectors in the whole scene."""
@@ -83,31 +78,23 @@ class SceneBuilder(JointBuilder):
 
     # --- hydraulics ---
 
-    def add_leg(self, leg: PreloadedLeg) -> LegItem:
-        """Put a hydraulic leg in place of an actuator; its force follows when all is there."""
-        ends, model = self.ends(leg.actuator), leg.model
-        spring = ObjectConnectorSpringDamper(markerNumbers=ends, referenceLength=leg.actuator.start_length)
-        drive = self.scenario.drive_of(leg.name)
-        source = model.inlet if isinstance(model, HydraulicCylinder) else drive
-        return LegItem(self.mbs, leg, ends, self.mbs.AddObject(spring), source)
-
-    def legs(self) -> list[PreloadedLeg]:
-        """Hydraulic legs: those of the plane, in space each side with its share of them."""
-        plane = preloaded_legs(self.scenario.linkage, self.scenario.legs, self.scenario.gravity)
-        if not self.in_space:
-            return [*plane.values()]
-        return [
-            PreloadedLeg(name, one, whole.model.share(one.share), one.share * whole.load)
-            for name, one in self.linkage.actuators.items()
-            if (whole := plane.get(one.actuator)) is not None
-        ]
-
-    def join_legs(self, items: Iterable[LegItem]) -> EngineLegs:
-        """All legs, and the pump that they share."""
+    def add_legs(self) -> list[LegItem]:
+        """Put hydraulic legs in place of actuators, in space on each side; their forces follow later."""
         scenario = self.scenario
-        mass = sum(body.mass for body in scenario.linkage.bodies.values())
-        weight = mass * math.hypot(*scenario.gravity)
-        return EngineLegs(tuple(items), scenario.pump, weight)
+        legs = preloaded_legs(scenario.linkage, scenario.legs, scenario.gravity)
+        if self.in_space:
+            legs = {
+                name: PreloadedLeg(name, one, whole.model.share(one.share), one.share * whole.load)
+                for name, one in self.linkage.actuators.items()
+                if (whole := legs.get(one.actuator)) is not None
+            }
+        found = []
+        for name, leg in legs.items():
+            ends, model = self.ends(leg.actuator), leg.model
+            spring = ObjectConnectorSpringDamper(markerNumbers=ends, referenceLength=leg.actuator.start_length)
+            source = model.inlet if isinstance(model, HydraulicCylinder) else scenario.drive_of(name)
+            found.append(LegItem(self.mbs, leg, ends, self.mbs.AddObject(spring), source))
+        return found
 
     # --- the whole ---
 
@@ -117,7 +104,7 @@ class SceneBuilder(JointBuilder):
         rows, held, size = self.constraints()
         self.add_joints(rows)
         frictions = {name: self.add_friction(joint) for name, joint in scenario.friction_joints.items()}
-        legs = [self.add_leg(leg) for leg in self.legs()]
+        legs = self.add_legs()
         places = self.contact_places()
         connectors = {name: [self.add_contact(part) for part in parts[1:]] for name, parts in places.items()}
         loads = {name: LoadItem(load, name, self) for name, load in scenario.elements.items()}
@@ -127,6 +114,7 @@ class SceneBuilder(JointBuilder):
         for friction in frictions.values():
             friction.assembled(self.multiplier(friction.joint.owner), self.bodies)
             friction.lagged = bool(connectors) or scenario.jumps
+        weight = sum(body.mass for body in scenario.linkage.bodies.values()) * math.hypot(*scenario.gravity)
         scene = EngineScene(
             scenario=scenario,
             linkage=linkage,
@@ -140,7 +128,7 @@ class SceneBuilder(JointBuilder):
             frictions=frictions,
             loads=loads,
             driven=[*self.driven_parts()],
-            legs=self.join_legs(legs),
+            legs=EngineLegs(legs, scenario.pump, weight),
         )
         for name, items in connectors.items():
             scene.contacts[name] = self.contact(scene, name, places[name], items)

@@ -55,7 +55,9 @@ class SectionJournal:
         # a journal makes contact when all that was in contact before has separated
         if impacts and all(pin.struck is not None for pin in self.sections if pin.was_in_contact):
             self.onsets.append(min(impacts))
-        self._look_for_separation(t)
+        separated = [-pin.kept.rate for pin in self.sections if pin.was_in_contact]
+        if self.onsets and separated and not any(pin.kept.in_contact for pin in self.sections):
+            self.onsets[-1] = self.onsets[-1].separated(t, max(separated))  # the last sections have separated
         before, bound = self._bound, 0.0
         for pin in self.sections:
             force = pin.force
@@ -71,17 +73,6 @@ class SectionJournal:
                 self.largest_force = peak(self._resultant, self.largest_force)
             if self.largest_force > was_largest:
                 self.largest_force_time = t
-
-    def _look_for_separation(self, t: float) -> None:
-        """If in the step to t [s] the last sections have separated: note when, and their highest speed."""
-        if not self.onsets:
-            return
-        for pin in self.sections:
-            if pin.kept.in_contact:
-                return
-        separated = [-pin.kept.rate for pin in self.sections if pin.was_in_contact]
-        if separated:
-            self.onsets[-1] = self.onsets[-1].separated(t, max(separated))
 
     def _bound_within(self, fraction: float) -> float:
         """What the force is at most [N] at a fraction of the step just accepted."""

@@ -111,7 +111,9 @@ class SolverRun:
         except exudyn.ExudynError as error:
             raise SimulationError(self._failure(*why(error, self.scene, self._ahead, self.calm))) from error
         if not finished or self.time < self.plan.duration * (1.0 - 1e-9):
-            advice = f"{ADVICE} {STEEP}" if self.newton.failures and self._has_friction() else ADVICE
+            rough = any(not isinstance(pin.contact.friction, Frictionless) for pin in self.pins)
+            has_friction = rough or bool(self.frictions)
+            advice = f"{ADVICE} {STEEP}" if self.newton.failures and has_friction else ADVICE
             scene, ahead = self.scene, self._ahead
             told = unlawful(scene, ahead) or singular(scene, self.calm) or ("the solver gave up", advice)
             raise SimulationError(self._failure(*told))
@@ -274,11 +276,6 @@ class SolverRun:
                 if depth * (depth + 2.0 * following * pin.reached.rate) < 0.0:
                     return True
         return False
-
-    def _has_friction(self) -> bool:
-        """Whether there is any in a pin."""
-        rough = (pin for pin in self.pins if not isinstance(pin.contact.friction, Frictionless))
-        return bool(self.frictions) or any(rough)
 
     def _look_for_limits(self) -> None:
         """Raise SimulationError if a journal is too deep, or there were too many steps, or too many failed."""
