@@ -163,13 +163,6 @@ def _rms(result: Result, ideal: Result, inside: np.ndarray) -> float:
     return float(np.sqrt(np.mean(apart[0] ** 2 + apart[1] ** 2)))
 
 
-def test_the_pin_stays_closed(with_clearance: list[Result]) -> None:
-    for result in with_clearance:
-        assert result.onsets[PIN] == ()
-        assert result.counts.failed_newton == 0
-        assert result[f"pin.{PIN}.depth"].min() > 0.0
-
-
 def test_depth_shrinks_with_the_cube_root_of_the_clearance(with_clearance: list[Result]) -> None:
     # internal contact: K ~ c^-1/2 and depth = (F/K)^(2/3), so depth ~ c^(1/3); R1 = R2 - c bends it by c/R2
     depth = eccentricity(with_clearance) - CLEARANCES

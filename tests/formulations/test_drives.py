@@ -35,12 +35,10 @@ from support_exudyn.postprocessing.pytest_plugin import SimulateCached
 from tests.cases.run_cases import (
     CRANK_SPEED,
     SLIDER_PIN,
-    paper_contact,
     slider_crank,
     slider_crank_contact,
     support,
 )
-from tests.cases.run_cases import support as support_scenario
 from tests.commands import test_scenario_commands
 from tests.commands.test_scenario_commands import same
 from user_forces import value
@@ -192,31 +190,6 @@ def test_a_crank_at_speed_starts_with_the_velocities_of_the_closed_form(
     for name, speed in expected.items():
         # rounding of 524 rad/s
         assert result[name][0] == pytest.approx(speed, abs=1e-12), name
-
-
-@pytest.mark.parametrize("rate", [0.25, -0.05])
-@pytest.mark.parametrize("with_clearance", [False, True])
-def test_actuators_at_speed_start_with_the_velocities_of_the_closed_form(
-    rate: float, with_clearance: bool
-) -> None:
-    pins = {"rear_base": ClearancePin(contact=paper_contact(1.5, 0.0))} if with_clearance else {}
-    result = simulate(support_scenario(drive=Steady(rate=rate), duration=1e-3, pins=pins))
-    machine, small = reference_support(), 1e-5
-    lower, upper = machine.extended(-small), machine.extended(small)
-    assert lower is not None
-    assert upper is not None
-    slope = (upper.rear_link - lower.rear_link) / (2 * small)
-    # central difference over 0.02 mm: 1e-9
-    assert result["rear_link.angular_velocity"][0] == pytest.approx(slope * rate, rel=1e-8)
-    tip = (upper.tip[0] - lower.tip[0]) / (2 * small), (upper.tip[1] - lower.tip[1]) / (2 * small)
-    # tip and canopy are one body; its points move by the same central difference
-    canopy = result["canopy.angular_velocity"][0]
-    moved = (
-        result["canopy.velocity_x"][0] - canopy * (result["tip.y"][0] - result["canopy.y"][0]),
-        result["canopy.velocity_y"][0] + canopy * (result["tip.x"][0] - result["canopy.x"][0]),
-    )
-    assert moved == pytest.approx((tip[0] * rate, tip[1] * rate), rel=1e-7)
-    assert result.impulses == ()
 
 
 @value

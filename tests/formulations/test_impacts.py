@@ -138,19 +138,6 @@ def test_bounces_end_in_resting_contact(law: NormalLaw) -> None:
     assert longer.onsets["ring"] == onsets
 
 
-def test_rejected_steps_leave_no_trace() -> None:
-    # grids that reject different steps give the same impacts
-    law = Exact(stiffness=STIFFNESS, restitution=0.6)
-    settings = SolverSettings(impact_steps=200)
-    runs = [bounce(law, 0.2, step=step, solver=settings) for step in (1e-3, 3.7e-4, 1e-4)]
-    assert all(run.counts.cut_steps > 5 for run in runs)
-    for run in runs[1:]:
-        for one, other in zip(run.onsets["ring"][:4], runs[0].onsets["ring"][:4], strict=True):
-            # impacts are computed with the same number of steps; flight is exact
-            assert one.time == pytest.approx(other.time, abs=1e-8)
-            assert one.speed == pytest.approx(other.speed, rel=1e-5)
-
-
 # --- separations ---
 
 

@@ -140,19 +140,6 @@ def test_an_impact_does_not_begin_with_a_long_step(impact: Rise, finer: int) -> 
     assert_located(verdict, early)
 
 
-def test_a_touch_exactly_at_the_end_is_found_in_the_next_step() -> None:
-    depth = Polynomial([-0.5 * H, 0.5])
-    at_end = judge(memory_of(False, 0.0, -0.5 * H, 0.5), 0.0, 0.5, H, H, any_speed(H))
-    assert (at_end.action, at_end.onset) == (Action.ACCEPT, None)
-    following = judge(at_end.memory, float(depth(2 * H)), 0.5, 2 * H, H, any_speed(H))
-    assert following.action is Action.REPEAT
-    assert following.onset == pytest.approx(Onset(H, 0.5), rel=1e-14)  # rounding
-    # and one that is pressed in without contact begins it at once
-    pressed, memory = judged(Polynomial([1e-5, 0.2]))
-    assert (pressed.action, pressed.onset) == (Action.REPEAT, Onset(0.0, 0.2))
-    assert pressed.memory == memory_of(True, 0.2, memory.depth, memory.rate)
-
-
 # --- up and down, or down and up, within one step ---
 
 

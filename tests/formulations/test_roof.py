@@ -12,7 +12,6 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from support_exudyn import (
-    AppliedForce,
     BeddedRoof,
     Body,
     CubicStep,
@@ -20,14 +19,12 @@ from support_exudyn import (
     Held,
     Linkage,
     Machine,
-    OilColumn,
     Result,
     Scenario,
     SolverSettings,
     SpringDamper,
     simulate,
 )
-from support_exudyn.mechanics.kinetics import kinetics_of
 from support_exudyn.model.linkage import pinned
 from tests.cases.run_cases import loose_support
 from tests.compiled_runs import simulate_compiled
@@ -48,7 +45,6 @@ from tests.roof_cases import (
     thrown,
 )
 from user_forces import value
-from user_forces.values.value import Vector2
 
 W = math.sqrt(STIFFNESS / MASS)
 WITH_CLEARANCE = loose_support().pins
@@ -114,20 +110,6 @@ def test_a_damped_roof_gives_back_what_the_closed_form_says(damping: float) -> N
     assert result.energy_error < 1e-2
 
 
-def test_an_applied_force_gives_its_work_to_the_ram() -> None:
-    up = AppliedForce(body="ram", point=TOP, full_force=(0.0, 5e3), start=0.1, end=0.3)
-    scene = Scenario(machine=Ram(), loads={"jack": up}, duration=0.5, record_period=1e-3, gravity=(0.0, 0.0))
-    result = simulate(scene)
-    # m v = F (0.1 + 0.2), the ramp counting half; second order in the step
-    speed = 5e3 * 0.3 / MASS
-    assert result["ram.velocity_y"][-1] == pytest.approx(speed, rel=1e-5)
-    assert result["energy.work"][-1] == pytest.approx(0.5 * MASS * speed**2, rel=1e-5)
-    assert result["jack.force_y"][[0, 100, 200, 300, 500]] == pytest.approx(
-        [0.0, 0.0, 2.5e3, 5e3, 5e3], abs=1e-6
-    )
-    assert result.energy_error < 1e-4 * 0.5 * MASS * speed**2
-
-
 # --- the support under 10 MN ---
 
 
@@ -140,44 +122,6 @@ def press(kind: str, damping: float = 0.0, duration: float = 0.3) -> Scenario:
 @cache
 def pressed(kind: str, damping: float = 0.0, duration: float = 0.3) -> Result:
     return simulate(press(kind, damping, duration))
-
-
-def reactions(result: Result, pushed: Vector2, row: int = -1) -> tuple[np.ndarray, np.ndarray]:
-    """Forces of pins (5, 2) and thrusts of actuators (2,) from statics where a record has the bodies [N].
-
-    pushed: force on the canopy over its columns [N].
-    """
-    linkage = result.scenario.linkage
-    closed = kinetics_of(linkage)
-    position = np.concatenate(
-        [
-            [
-                result[f"{name}.{axis}"][row] - of
-                for axis, of in zip(("x", "y", "angle"), (*body.centre, body.angle), strict=True)
-            ]
-            for name, body in linkage.bodies.items()
-        ]
-    )
-    rate = closed.point(position, "canopy", OVER_THE_COLUMNS)[1]
-    force = closed.weight(result.scenario.gravity) + np.array(pushed) @ rate
-    found = closed.respond(position, force, 0.0)[1]
-    # what the rows pull with is what the actuators push with, and acts on the second bodies reversed
-    return -found[:10].reshape(-1, 2), -found[closed.driven()]
-
-
-@pytest.mark.parametrize("actuators", [{}, DAMPED], ids=["rigid", "oil"])
-@pytest.mark.parametrize("force", [(0.0, -1e6), (2e5, -5e5)])
-def test_actuators_and_pins_carry_an_applied_force(actuators: dict[str, OilColumn], force: Vector2) -> None:
-    push = AppliedForce(body="canopy", point=OVER_THE_COLUMNS, full_force=force, start=0.02, end=0.12)
-    result = simulate(pressed_support(push, actuators=actuators, duration=0.6))
-    pins, thrusts = reactions(result, force)
-    # on oil what the lines leave of vibrations after 0.48 s
-    for name, wanted in zip(result.scenario.linkage.pins, pins, strict=True):
-        assert result[f"pin.{name}.force"][-1] == pytest.approx(float(np.hypot(*wanted)), rel=1e-6)
-    for name, thrust in zip(result.scenario.linkage.actuators, thrusts, strict=True):
-        assert result[f"{name}.force"][-1] == pytest.approx(thrust, rel=1e-6)
-    # 1 MN over some tenths of a millimetre of oil
-    assert result.energy_error < 1e-4 * max(1.0, result["energy.work"].max())
 
 
 @pytest.mark.parametrize(

@@ -13,10 +13,8 @@ from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad, solve_ivp
 
-from studies.common.paper_machine import oil_columns
-from support_exudyn import ClearancePin, CubicStep, Held, Scenario, SolverSettings, simulate
+from support_exudyn import ClearancePin, Scenario, SolverSettings, simulate
 from support_exudyn.model.spatial_linkage import Bearing, SpatialBody, SpatialLinkage
-from tests.cases.run_cases import support
 from tests.cases.spatial_cases import (
     CLEARANCE,
     LENGTH,
@@ -189,35 +187,6 @@ def test_a_pressed_journal_carries_the_integral_along_its_axis(shift: float, til
 
 
 # --- a support on oil columns that are driven apart ---
-
-
-def test_a_canopy_on_actuators_driven_apart_rolls_as_far_as_its_oil_lets_it() -> None:
-    # the four-bar and the hinge stay in their plane: with ideal pins the machine has no way to roll, and the
-    # actuators' oil takes all of the difference
-    apart = 1e-3
-    actuators = {name: replace(column, line=None) for name, column in oil_columns().items()}
-    drive = CubicStep(start=0.0, end=0.1, stroke=apart)
-    names = ("front_column_left", "rear_column_left")
-    result = simulate(
-        support(
-            dimensions=3, actuators=actuators, drive=Held(), drives=dict.fromkeys(names, drive), duration=0.5
-        )
-    )
-    plane = simulate(support(actuators=actuators, drive=Held(), duration=0.02))
-    for body in ("canopy.roll", "shield.roll", "rear_link.yaw"):
-        np.testing.assert_allclose(result[body], 0.0, atol=1e-9)  # Newton's tolerance
-    # both actuators of a pair have the same length; the oil of the left is compressed by so much more
-    for name in ("front_column", "rear_column"):
-        oil = actuators[name].hydraulic
-        assert oil is not None
-        left, right = result[f"{name}_left.force"][-1], result[f"{name}_right.force"][-1]
-        each = 0.5 * plane[f"{name}.force"][-1]
-        # compression u = static + extension - stretch, with the same stretch on both sides
-        static = each / (0.5 * oil.stiffness(0.0))
-        run_of_steps = result[f"{name}.length"][-1] - result[f"{name}.length"][0]
-        # at any instant of the vibration; Newton's tolerance of 1e-8 where the static force comes from
-        assert right == pytest.approx(0.5 * oil.stiffness(0.0) * (static - run_of_steps), rel=1e-6)
-        assert left == pytest.approx(0.5 * oil.stiffness(apart) * (static + apart - run_of_steps), rel=1e-6)
 
 
 # --- bodies that a clearance bearing alone joins ---

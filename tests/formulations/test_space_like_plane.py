@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import pickle
 from dataclasses import replace
 from functools import cache
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -114,19 +112,6 @@ def test_impulses_of_both_actuators_add_up(case: str) -> None:
             sides = one.actuators[f"{name}_left"], one.actuators[f"{name}_right"]
             assert sum(sides) == pytest.approx(impulse, rel=1e-6)
             assert sides[0] == pytest.approx(sides[1], rel=1e-5)  # solved with a small lift; 2e-7
-
-
-def test_a_scenario_in_space_is_saved_and_pickled(tmp_path: Path) -> None:
-    scenario = replace(CASES["friction"], dimensions=3, duration=0.02, channels=("tip.*", "pin.rear_base*"))
-    result = simulate(scenario)
-    again = Result.load(result.save(tmp_path / "run.h5"))
-    assert pickle.loads(pickle.dumps(scenario)) == again.scenario == scenario
-    assert pickle.loads(pickle.dumps(result)).onsets == again.onsets == result.onsets
-    assert again.largest_force == result.largest_force
-    assert {"rear_base", "rear_base.left", "rear_base.right"} == set(again.onsets)
-    for name, channel in result.channels.items():
-        np.testing.assert_array_equal(again[name], channel.values)
-        assert again.unit(name) == channel.unit
 
 
 # --- front columns driven apart ---

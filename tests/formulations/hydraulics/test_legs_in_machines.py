@@ -12,15 +12,12 @@ import pytest
 from studies.common import paper_machine
 from support_exudyn import (
     CheckValve,
-    CubicStep,
     Drive,
     GroundReaction,
-    Held,
     OilColumn,
     PumpStation,
     RampedOpening,
     Result,
-    Roof,
     Scenario,
     SimulationError,
     SuddenOpening,
@@ -32,14 +29,11 @@ from support_exudyn import (
 )
 from support_exudyn.scenario.solver_settings import SolverSettings
 from tests.cases.cylinder_cases import lift, on_cylinders, opened
-from tests.cases.run_cases import FORCE, support
-from tests.formulations.hydraulics.leg_cases import LENGTH, STAGE, WIDE, Uprights
+from tests.cases.run_cases import FORCE
+from tests.formulations.hydraulics.leg_cases import Uprights
 from tests.roof_cases import DAMPED, ON_OIL, OVER_THE_COLUMNS
 
 MASS, GRAVITY = 3000.0, 9.81
-AREA = bore_area(0.25, number=2)
-OIL = OilColumn(bore_area=AREA, oil_length=0.5, bulk_modulus=1.5e9)
-BOTH = {"front_column": OIL, "rear_column": OIL}
 
 
 def pushed(oil: OilColumn, drive: Drive, step: float = 1e-4, duration: float = 0.3) -> Result:
@@ -81,40 +75,6 @@ def test_a_sudden_start_follows_the_closed_form_of_an_oscillator() -> None:
     largest = np.abs(expected - MASS * GRAVITY).max()
     np.testing.assert_allclose(result["leg0.force"], expected, atol=1e-3 * largest)
     assert result.impulses == ()
-
-
-def test_stiffer_oil_tends_to_rigid_actuators_with_order_one() -> None:
-    drive = CubicStep(start=0.05, end=0.55, stroke=0.1)
-    rigid = simulate(support(drive=drive, duration=0.3))
-
-    def off(stiffer: float) -> float:
-        oil = replace(OIL, bulk_modulus=stiffer * OIL.bulk_modulus)
-        soft = simulate(support(actuators=dict.fromkeys(BOTH, oil), drive=drive, duration=0.3, step=2.5e-4))
-        late = rigid.time > 0.2  # over some vibrations of the start, which nothing damps
-        return abs(float((soft["tip.y"] - rigid["tip.y"])[late].mean()))
-
-    # compliance is what moves: ten times stiffer, ten times nearer; 5 % for what vibrates
-    assert off(10.0) / off(100.0) == pytest.approx(10.0, rel=0.05)
-
-
-def test_a_ram_is_set_against_a_roof_with_the_pressure_of_the_pump() -> None:
-    # flow ends where the root is steepest: pressure drops of the open valve become zero on both sides
-    roof = Roof(body="mass0", point=(0.0, LENGTH), gap=0.03, stiffness=1e9, descent=Held(), damping=1e-3)
-    cylinder = opened(SuddenOpening(start=0.05, end=2.0), damping=5e4)
-    scenario = Scenario(
-        machine=Uprights(),
-        loads={"roof": roof},
-        actuators={"leg0": cylinder},
-        drive=Held(),
-        duration=1.0,
-        step=5e-4,
-    )
-    result = simulate(scenario)
-    # the trapezoidal rule hops about the end by the flow of a step, some 100 Pa
-    assert result["leg0.pressure"][-1] == pytest.approx(31.5e6, abs=1e3)
-    assert result["leg0.rod_pressure"][-1] == pytest.approx(0.5e6, abs=1e3)
-    assert result["leg0.force"][-1] == pytest.approx(31.5e6 * 0.098 - 0.5e6 * 0.03, rel=1e-4)
-    assert result.energy_error < 1e-4 * result["energy.work"][-1]
 
 
 def test_a_piston_at_the_end_of_its_cylinder_stops_the_run() -> None:
@@ -182,18 +142,6 @@ def test_a_valve_whose_opening_pressure_the_load_exceeds_is_open(formulation: st
     # open, the valve lets out in proportion to what is above the closing pressure
     np.testing.assert_allclose(flow, 1e-4 / 1e5 * (pressure - 1e6), rtol=1e-9)
     assert pressure[-1] < pressure[0] - 1e4
-
-
-def test_two_stages_rest_alike_in_both_formulations() -> None:
-    columns = {
-        name: replace(oil, second_stage=STAGE, end_stops=WIDE, line=DAMPED[name].line)
-        for name, oil in ON_OIL.items()
-    }
-    one, other = (settled(columns, formulation) for formulation in FORMULATIONS)
-    assert one["roof.force"][0] == pytest.approx(other["roof.force"][0], rel=1e-9)
-    for run in (one, other):
-        assert np.ptp(run["roof.force"]) < 1e-8 * run["roof.force"][0]
-        assert np.ptp(run["front_column.stage_extension"]) < 1e-10
 
 
 # --- in space, where each is one of a pair ---
