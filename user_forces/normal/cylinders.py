@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from abc import ABC, abstractmethod
+from abc import ABC
 from functools import cached_property
 from typing import Annotated, ClassVar
 
@@ -64,7 +64,7 @@ def load_ratio(depth: float, line_compliance: float, scale: float, offset: float
 
 
 @value
-class LogarithmicLaw(CylinderLaw):
+class LogarithmicLaw(CylinderLaw, ABC):
     """Laws that give the depth for a load p = F/L, as depth = p H (ln(A/p) + c), H = 1/(pi E*).
 
     Depth rises with load only up to p = A exp(c - 1), at the depth H A exp(c - 1): larger depths have no load
@@ -75,9 +75,9 @@ class LogarithmicLaw(CylinderLaw):
     offset: ClassVar[float]  # c [-]
 
     @property
-    @abstractmethod
     def scale(self) -> float:
-        """A [N/m], the load per length at which the logarithm is zero."""
+        """A [N/m], the load per length at which the logarithm is zero: 4 pi E* dR."""
+        return 4.0 * math.pi * self.effective_modulus * self.bearing.clearance
 
     @property
     def line_compliance(self) -> float:
@@ -123,11 +123,6 @@ class Johnson(LogarithmicLaw):
 
     offset: ClassVar[float] = -1.0
 
-    @property
-    def scale(self) -> float:
-        """4 pi E* dR [N/m]."""
-        return 4.0 * math.pi * self.effective_modulus * self.bearing.clearance
-
 
 @value
 class Esdu78035(LogarithmicLaw):
@@ -144,11 +139,6 @@ class Esdu78035(LogarithmicLaw):
 
     TITLE: ClassVar[str] = "ESDU 78035"
     offset: ClassVar[float] = 1.0
-
-    @property
-    def scale(self) -> float:
-        """4 pi E* dR [N/m]."""
-        return 4.0 * math.pi * self.effective_modulus * self.bearing.clearance
 
 
 @value

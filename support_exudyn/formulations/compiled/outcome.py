@@ -19,18 +19,11 @@ from support_exudyn.scene.setup import Model
 from user_forces.contact import Contact
 
 
-def record_width(model: Model) -> int:
-    """How many numbers a record has, see `integrate.record`."""
+def record_sizes(model: Model) -> list[int]:
+    """How many numbers a record has, see `recording.write_record`, by its parts."""
     scene = model.scene
-    return (
-        1
-        + model.states
-        + 3 * scene.bodies.size
-        + scene.rows.size
-        + CONTACT_NUMBERS * scene.contacts.size
-        + 2 * scene.courses.size
-        + scene.rubbing.size
-    )
+    contacts, courses = CONTACT_NUMBERS * scene.contacts.size, 2 * scene.courses.size
+    return [1, model.states, 3 * scene.bodies.size, scene.rows.size, contacts, courses, scene.rubbing.size]
 
 
 class _Records:
@@ -38,16 +31,7 @@ class _Records:
 
     def __init__(self, model: Model, rows: Matrix) -> None:
         scene, count = model.scene, 3 * model.scene.bodies.size
-        sizes = [
-            1,
-            model.states,
-            count,
-            scene.rows.size,
-            CONTACT_NUMBERS * scene.contacts.size,
-            2 * scene.courses.size,
-            scene.rubbing.size,
-        ]
-        parts = np.split(rows, np.cumsum(sizes)[:-1], axis=1)
+        parts = np.split(rows, np.cumsum(record_sizes(model))[:-1], axis=1)
         self.time = rows[:, 0].copy()
         self.state, self.acceleration, self._held, contacts, courses, self.friction = parts[1:]
         self.position, self.velocity = self.state[:, :count], self.state[:, count : 2 * count]

@@ -4,7 +4,7 @@ import numpy as np
 
 from support_exudyn.formulations import change_points
 from support_exudyn.formulations.compiled.integrate import integrate
-from support_exudyn.formulations.compiled.outcome import record_width, trajectory
+from support_exudyn.formulations.compiled.outcome import record_sizes, trajectory
 from support_exudyn.formulations.compiled.start import error_weights, first_state
 from support_exudyn.formulations.statistics.collected import RunStatistics, within_steps
 from support_exudyn.formulations.statistics.steps import OF_STEP
@@ -62,7 +62,7 @@ class _Run:
         self.model, self.scenario = model, model.scenario
         self.y = first_state(model)
         self.statistics = RunStatistics(self.scenario)
-        width = record_width(model)
+        width = sum(record_sizes(model))
         at_once = min(AT_ONCE // model.scene.bodies.size, NUMBERS_AT_ONCE // (OF_STEP * width))
         self.at_once = max(1, at_once)
         count = OF_STEP * self.at_once + 1 if self.statistics.wanted else 0
