@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import Any
 
 from support_exudyn import (
     Body,
     CubicStep,
     Drive,
-    FallingBlock,
     Held,
     Line,
     Linkage,
@@ -71,11 +69,6 @@ class DeadLoad(Load):
         t: float, x: float, y: float, vx: float, vy: float, z: float, vz: float, *vector: float
     ) -> tuple[float, ...]:
         return vector[0], vector[1], 0.0, -vector[0] * x - vector[1] * y, 0.0, 0.0
-
-
-def elastic_block(**fields: Any) -> FallingBlock:
-    """A block that gives all back, by a straight spring."""
-    return FallingBlock(**{"exponent": 1.0, "restitution": 1.0} | fields)
 
 
 def over_the_ram(gap: float = 0.01, damping: float = 0.0, descent: Drive | None = None) -> Roof:

@@ -103,16 +103,20 @@ def point_on_face(
 class ContactGeometry(Value, ABC):
     """What a journal is enclosed by, and where both make contact; here with straight walls.
 
-    clearance: eccentricity at which it makes contact [m]. radius: of a bore, or of a pin between walls [m].
-    kinematics: kernel of the contact's kinematics, which takes `constants` last. is_slot: only what is across
-    counts, the journal slides freely along. is_one_sided: only one side of it can be met.
+    clearance: eccentricity at which it makes contact [m]. kinematics: kernel of the contact's kinematics, which
+    takes `constants` last. is_slot: only what is across counts, the journal slides freely along. is_one_sided:
+    only one side of it can be met.
     """
 
     clearance: float
-    radius: float
     kinematics: ClassVar[Kinematics]
     is_slot: ClassVar[bool] = True
     is_one_sided: ClassVar[bool] = False
+
+    @property
+    def radius(self) -> float:
+        """Radius of the pin between walls [m]; 0: a corner or a point."""
+        return 0.0
 
     @property
     def constants(self) -> tuple[float, float]:
@@ -233,7 +237,6 @@ class Face(ContactGeometry):
     """
 
     clearance: Metres[Positive]
-    radius: ClassVar[float] = 0.0
     kinematics: ClassVar[Kinematics] = staticmethod(point_on_face)
     is_one_sided: ClassVar[bool] = True
 

@@ -261,7 +261,7 @@ class JointItem:
             self.contact.normal.check(force[4])
         return [force[0], force[1], force[2], 0.0, 0.0, force[3]]
 
-    def stretched(self, mbs: Any, t: float, item: int, depth: float, rate: float, *settings: Any) -> float:
+    def stretched(self, mbs: Any, t: float, item: int, depth: float, rate: float, *settings: Any) -> Any:
         """The user function of a spring-damper: force [N] that pulls the markers together."""
         self.calls += 1
         self.last = force = self.kernel(depth, rate, self.closed, self.speed, self.constants)
