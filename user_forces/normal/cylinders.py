@@ -89,11 +89,6 @@ class LogarithmicLaw(CylinderLaw, ABC):
         """Depth [m] at which the load stops to rise."""
         return self.line_compliance * self.scale * math.exp(self.offset - 1.0)
 
-    def depth_of(self, force: float) -> float:
-        """The law as published: depth [m] under a force [N] > 0 at rest."""
-        p = force / self.length
-        return p * self.line_compliance * (math.log(self.scale / p) + self.offset)
-
     @staticmethod
     @kernel
     def elastic(depth: float, length: float, line_compliance: float, scale: float, offset: float) -> float:
