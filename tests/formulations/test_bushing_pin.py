@@ -14,6 +14,8 @@ from support_exudyn import (
     Machine,
     PinPlace,
     Scenario,
+    Steady,
+    ravn_slider_crank,
     reference_support,
     simulate,
 )
@@ -101,6 +103,27 @@ def test_energies_add_up() -> None:
     stored = 0.5 * (2e4 * result["pin.mount.deflection_x"] ** 2 + 5e4 * result["pin.mount.deflection_y"] ** 2)
     stored += 0.5 * 300.0 * result["pin.mount.angle"] ** 2
     assert result["energy.elastic"] == pytest.approx(stored, rel=1e-12, abs=1e-12)
+
+
+def test_both_bodies_may_move() -> None:
+    crank = ravn_slider_crank()
+    pins = crank.linkage().pins.items()
+    name = next(name for name, place in pins if "ground" not in (place.first, place.second))
+    scene = Scenario(
+        machine=crank,
+        pins={name: BushingPin(stiffness=(1e8, 1e8), damping=(2e3, 2e3))},
+        drive=Steady(rate=20.0),
+        duration=0.1,
+        step=2e-5,
+        record_period=1e-3,
+        gravity=(0.0, 0.0),
+    )
+    found, ideal = simulate(scene), simulate(replace(scene, pins={}))
+    late = found.time > 0.05
+    for pin in crank.linkage().pins:  # those beside it follow from the forces that it has on both bodies
+        force, wanted = found[f"pin.{pin}.force"][late], ideal[f"pin.{pin}.force"][late]
+        assert force == pytest.approx(wanted, abs=0.02 * wanted.max()), pin
+    assert np.abs(found["energy.balance"]).max() < 1e-3 * np.abs(found["energy.kinetic"]).max()
 
 
 def test_space_refuses_it() -> None:

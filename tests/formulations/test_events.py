@@ -14,6 +14,8 @@ from hypothesis import strategies as st
 from numpy.polynomial import Polynomial
 
 from support_exudyn.formulations.compiled import events
+from support_exudyn.formulations.compiled.integrate import StepEvents, land_on_first
+from support_exudyn.formulations.compiled.oil_events import NONE
 from support_exudyn.scene.arrays import CONTACT, REPORT
 from tests.formulations.plain import plain
 
@@ -179,7 +181,32 @@ def cut(push: Callable[[float], float], depth: Polynomial, h: float = 0.125, sta
 # --- at the ends of steps ---
 
 
+@pytest.mark.parametrize(
+    ("closed", "size", "bend"),
+    [(True, 1.0, 0.03), (True, 1.0, -0.03), (False, -0.1, 0.02), (False, -0.1, -0.02)],
+)
+def test_what_a_cubic_cannot_tell_is_looked_at_more_closely(closed: bool, size: float, bend: float) -> None:
+    # s^2 + bend s^4 has the same values and slopes at -1 and 1 as a parabola that is lower by `bend` at 0; of a
+    # flight the first quarter of the step is looked at
+    s = Polynomial([-1.0, 16.0 if closed else 64.0])
+    close = size * DEPTH * (s**2 + bend * s**4 + 0.5 * bend)
+    assert find(Course(close, closed=closed), 0.0, 0.125)[0] == UNCLEAR
+
+
+def test_a_bump_between_two_falling_ends_is_a_touch() -> None:
+    rate = -Polynomial.fromroots([0.002, 0.009])
+    depth = rate.integ()
+    bump = depth - (0.3 * depth(0.0) + 0.7 * depth(0.009))
+    assert bump(0.0) < 0.0 < bump(0.009)
+    assert driven(Course(1e7 * DEPTH * bump, closed=False))[0][0] == IMPACT
+    # it lies within the first part of a step
+    assert find(Course(1e5 * DEPTH * bump, closed=False), 0.0, 0.05)[0] == UNCLEAR
+
+
 # --- landing ---
+
+
+STEP = 0.125
 
 
 @pytest.mark.parametrize("what", [events.IMPACT, events.SEPARATION])
@@ -194,3 +221,28 @@ def test_contacts_that_meet_or_part_at_the_same_instant_do_so_together(what: int
     assert plain(events.happen)(scene, room, 0, what, 1.0, np.zeros(1))
     np.testing.assert_array_equal(contacts.closed, [1.0, 1.0, 0.0] if meets else [0.0, 0.0, 1.0])
     assert report[0].impacts == (2 if meets else 0)
+
+
+@pytest.mark.parametrize("other", [events.IMPACT, events.SEPARATION])
+def test_a_contact_that_was_expected_later_is_landed_on_if_it_comes_first(other: int) -> None:
+    times, rates = (0.08, 0.05), (1.0, 1.0 if other == events.IMPACT else -1.0)
+
+    def contacts(t: float) -> np.recarray:
+        found = np.zeros(2, CONTACT).view(np.recarray)
+        found.rate, found.depth = rates, [rate * (t - at) for rate, at in zip(rates, times, strict=True)]
+        found.closed = 0.0, float(other == events.SEPARATION)
+        return found
+
+    def advance(scene: SimpleNamespace, t: float, length: float, *rest: object) -> None:
+        scene.contacts[:] = contacts(t + length)
+
+    scene = SimpleNamespace(contacts=contacts(STEP))
+    report = np.zeros(1, REPORT).view(np.recarray)
+    room = SimpleNamespace(now=contacts(0.0), then=contacts(STEP), report=report)
+    room.rates = room.end = room.weights = room.right = None
+    expected = StepEvents(0, events.IMPACT, 0.9, NONE, 0)
+    length, contact, what, _ = plain(land_on_first, advance=advance)(
+        scene, room, expected, 0.0, STEP, False, None
+    )
+    assert (contact, what) == (1, other)
+    assert length == pytest.approx(times[1], abs=1e-12)

@@ -9,10 +9,14 @@ import pytest
 
 from studies.extremes import long_runs
 from support_exudyn import Scenario, SolverSettings, Steady, simulate
+from support_exudyn.formulations.compiled.run import _Run as Run
 from support_exudyn.formulations.registry import formulation
 from support_exudyn.scene.contract import silent
+from support_exudyn.scene.motion import hold, place
+from support_exudyn.scene.setup import model_of
 from support_exudyn.simulation.result_checks import joints_apart
 from tests.cases.run_cases import slider_crank
+from tests.formulations.plain import plain
 from tests.linkage_cases import CrankRocker
 
 # share of what was turned over that is lost in the impacts of the first two seconds, at 64 steps each;
@@ -53,6 +57,26 @@ def test_every_record_of_the_compiled_formulation_has_its_joints_closed() -> Non
     )
     # within rounding; steps of this tolerance that nothing closes add up to some 1e-8 m
     assert joints_apart(scene, formulation("compiled").run(scene, silent)).max() < 3e-13
+
+
+def is_table(part: object) -> bool:
+    return isinstance(part, np.ndarray) and part.dtype.names is not None
+
+
+def test_every_step_of_the_compiled_formulation_ends_with_its_joints_closed() -> None:
+    # records close joints by themselves: here is the state that steps go on from
+    scene = Scenario(
+        machine=CrankRocker(angle=0.3, speed=10.0), duration=0.5, solver=SolverSettings(tolerance=1e-5)
+    )
+    model = model_of(scene)
+    made = Run(model)
+    made.go(silent)
+    records = {name: part.view(np.recarray) for name, part in model.scene._asdict().items() if is_table(part)}
+    arrays = model.scene._replace(**records)
+    plain(place)(arrays, made.y)
+    plain(hold)(arrays, made.y)
+    # within rounding, as above
+    assert np.abs(arrays.rows.off).max() < 3e-13
 
 
 def test_what_has_come_to_rest_stays_at_rest_and_costs_little() -> None:

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from numpy.polynomial import Polynomial
 
 from tests.analytic import fall_through
-from user_forces.contact_events import BEYOND, SHARE, Action, Verdict, judge, judge_at_ends
+from user_forces.contact_events import BEYOND, SHARE, Action, Verdict, goes_on, judge, judge_at_ends
 from user_forces.contact_state import InverseMass, Onset, PinMemory
 
 H = 1e-3  # length of a step [s]
@@ -169,6 +169,16 @@ def test_where_the_depth_does_not_reach_zero_nothing_happens(
     verdict, _ = judged((-100.0 if speed is None else 100.0) * ((away * H) ** 2 + t**2), speed=speed)
     assert (verdict.action, verdict.onset) == (Action.ACCEPT, None)
     assert verdict.memory[:2] == (speed is not None, speed or 0.0)
+
+
+@pytest.mark.parametrize("back", [1.0, -1.0])
+def test_a_dip_within_a_step_does_not_surely_go_on(back: float) -> None:
+    # the rate, of one sign at both ends, passes zero at 0.4 and 0.6 of the step
+    rate = back * 0.1 * Polynomial.fromroots([0.4 * H, 0.6 * H]) / H**2
+    dips, evenly = rate.integ() + 2e-4, Polynomial([2e-4, back * 0.1])
+    for depth, surely in ((dips, False), (evenly, True)):
+        start = memory_of(True, 0.3, 2e-4, float(depth.deriv()(0.0)))
+        assert goes_on(start, float(depth(H)), float(depth.deriv()(H)), H) is surely
 
 
 # --- one step after the other ---

@@ -8,10 +8,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from studies.common.paper_machine import oil_columns
 from support_exudyn import (
     AppliedTorque,
     Body,
     HarmonicCourse,
+    Held,
     Linkage,
     Machine,
     PinPlace,
@@ -20,6 +22,7 @@ from support_exudyn import (
     SpringDamper,
     TableCourse,
     TorsionSpring,
+    reference_support,
     simulate,
 )
 from support_exudyn.scenario.timescales import timescales
@@ -84,6 +87,28 @@ def test_a_free_crank_rocker_moves_as_published() -> None:
         assert row == pytest.approx(PUBLISHED[t], rel=1e-9)  # its last digit
 
 
+def test_energies_of_a_free_crank_rocker_add_up() -> None:
+    result = simulate(Scenario(machine=FREE, duration=0.5, step=1e-4))
+    length, force = result["spring.length"], result["spring.force"]
+    assert length[0] == pytest.approx(SPRING.start_length, rel=1e-12)
+    assert result["energy.elastic"] == pytest.approx(1500.0 * (length - 0.3) ** 2, rel=1e-12)
+    assert force == pytest.approx(-3000.0 * (length - 0.3) - 40.0 * np.gradient(length, result.time), abs=2.0)
+    assert result["torque.moment"] == pytest.approx(6.0)
+    turned = result["rocker.angle"] - result["rocker.angle"][0]
+    assert result["energy.work"] == pytest.approx(6.0 * turned, abs=1e-4)
+    assert np.all(np.diff(result["energy.damping_loss"]) >= 0.0)
+    turnover = np.ptp(result["energy.kinetic"])
+    assert result.energy_error < 1e-4 * turnover
+
+
+def test_records_know_the_forces_of_springs() -> None:
+    # accelerations of records follow from forces, those of the integrator from velocities
+    result = simulate(Scenario(machine=FREE, duration=0.1, step=1e-4))
+    slope = np.gradient(result["crank.angular_velocity"], result.time)[5:-5]
+    acceleration = result["crank.angular_acceleration"]
+    assert acceleration[5:-5] == pytest.approx(slope, abs=2e-3 * np.abs(acceleration).max())
+
+
 def test_a_torsional_pendulum_swings_as_its_closed_form() -> None:
     spring = TorsionSpring(body="one", stiffness=300.0, free_turn=0.4, damping=0.8)
     scene = free(Loose(pinned=True, spin=2.0), loads={"spring": spring}, step=5e-5)
@@ -146,3 +171,21 @@ def test_courses_give_their_impulse() -> None:
     result = simulate(scene)
     assert result["one.angular_velocity"][-1] == pytest.approx(known, rel=1e-6)
     assert timescales(scene).drive == pytest.approx(0.4 / (2.0 * math.pi), rel=1e-12)
+
+
+def test_a_support_settles_with_a_spring_between_two_bodies() -> None:
+    shield = reference_support().linkage().bodies["shield"].centre
+    tip = reference_support().linkage().points["tip"].point
+    spring = SpringDamper(body="canopy", point=tip, other="shield", other_point=shield, stiffness=2e5)
+    scene = Scenario(
+        machine=reference_support(),
+        actuators=oil_columns(),
+        drive=Held(),
+        loads={"spring": spring},
+        start="settled",
+        duration=0.02,
+    )
+    result = simulate(scene)
+    for body in ("canopy", "shield"):
+        assert np.abs(result[f"{body}.angular_velocity"]).max() < 1e-8
+    assert result["spring.force"][0] == pytest.approx(-2e5 * result["spring.length"][0], rel=1e-9)

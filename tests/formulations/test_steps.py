@@ -107,6 +107,11 @@ def test_a_break_within_rounding_of_a_record_takes_no_step_of_its_own() -> None:
     assert sizes == pytest.approx([0.05] * 20, abs=1e-15)
 
 
+def test_the_last_record_is_the_end_and_comes_once() -> None:
+    plan = StepPlan(0.027, 0.009, 0.009, ())  # 3 * 0.009 is a rounding below 0.027
+    assert plan.next_time(0.018) == 0.027
+
+
 # --- steps that pass over records ---
 
 
@@ -175,3 +180,15 @@ def test_steps_after_a_break_are_refined_beyond_a_record_just_behind_it() -> Non
     plan = StepPlan(1.0, 0.1, 0.01, [0.3 - 1e-6], ROUNDING)
     following = [t for t in (0.299, 0.3 - 1e-6, 0.3, 0.305, 0.3099, 0.31, 0.35) if plan.follows_break(t)]
     assert following == [0.3 - 1e-6, 0.3, 0.305, 0.3099]
+
+
+def test_several_breaks_at_one_time_are_all_told() -> None:
+    near = [0.3, math.nextafter(0.3, 1.0), 0.5]
+    assert StepPlan(1.0, 0.1, 0.01, near).breaks_at(3 * 0.1) == near[:2]
+
+
+def test_a_record_is_told_as_it_was_asked_for() -> None:
+    plan = StepPlan(1.0, 0.1, 0.01, [0.3])
+    assert plan.record_at(0.3) == 3 * 0.1 != 0.3
+    assert plan.record_at(0.301) is None
+    assert plan.record_at(math.nextafter(1.0, 0.0)) == 1.0

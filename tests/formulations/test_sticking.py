@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -17,6 +18,7 @@ from support_exudyn import (
     SolverSettings,
     simulate,
 )
+from support_exudyn.formulations.exudyn.scene.scene_builder import build
 from tests.cases.run_cases import FORCE, PIN, paper_contact, support
 from user_forces import Ambrosio, FrictionLaw, LuGre
 
@@ -48,6 +50,24 @@ def test_losses_at_the_default_step_are_those_of_fine_steps() -> None:
         assert plain[what][-1] == pytest.approx(fine[what][-1], rel=1e-2)
     # of the shaking, measured 4e-3; without, 6e-2
     assert np.std(plain[FORCE]) == pytest.approx(np.std(fine[FORCE]), rel=1e-2)
+
+
+def test_steps_follow_the_swing_and_halve_with_those_of_impacts() -> None:
+    numbers = (64, 128, 256)
+    counts = [
+        simulate(scene(duration=0.1, solver=SolverSettings(impact_steps=number))).counts.steps
+        for number in numbers
+    ]
+    # the pin rests on its bristles all the time; what does not double is after the break
+    assert counts[2] - counts[1] == pytest.approx(2 * (counts[1] - counts[0]), rel=0.05)
+    model = build(scene())
+    alone = model.clearance_joints[PIN].find_inverse_mass()
+    model.release()
+    load = 58779.0  # of the ideal pin at rest [N]
+    lightest = 2.0 / (alone.xx + alone.yy + math.hypot(alone.xx - alone.yy, 2.0 * alone.xy))
+    longest = math.pi * math.sqrt(lightest / (LUGRE.bristle_stiffness * load)) / 4.0  # of 128 steps an impact
+    # steps are rounded down to a power of two
+    assert 0.3 * longest < 0.1 / (counts[2] - counts[1]) < 1.5 * longest
 
 
 @pytest.mark.parametrize("name", [PIN, "front_base"])

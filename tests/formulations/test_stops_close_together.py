@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
 import numpy as np
 import pytest
 
+from studies.common.paper_machine import hydraulic_cylinders
 from support_exudyn import (
+    ClosedInlet,
     CubicStep,
     Failure,
+    Held,
     OilColumn,
     Result,
     Scenario,
@@ -21,6 +25,9 @@ from support_exudyn import (
     bore_area,
     simulate,
 )
+from support_exudyn.formulations.exudyn.scene.engine_scene import slide
+from support_exudyn.formulations.exudyn.scene.scene_builder import build
+from support_exudyn.scene.hydraulics.implicit import START_RATE
 from tests.cases.run_cases import PIN, loose_support, support
 
 OIL = OilColumn(bore_area=bore_area(0.25, 2), oil_length=0.5, bulk_modulus=1.5e9)
@@ -107,3 +114,49 @@ def test_a_touch_or_parting_just_before_a_record(event: str, before: float) -> N
         # forces change within 0.1 ms at the impact, so by a fiftieth of the weight in 2 us
         assert abs(found[name][1] - beside[name][1]) < 0.04 * WEIGHT
     assert not isinstance(found, Failure)
+
+
+@pytest.mark.parametrize("rest", [1e-9, 1e-6, 1e-3])
+def test_a_rest_is_moved_over_by_the_rates(rest: float) -> None:
+    scene = build(loose_support(0.5, 0.25, actuators=hydraulic_cylinders(ClosedInlet()), drive=Held(), **SHORT))
+    data = scene.mbs.systemData
+    numbers = np.random.default_rng(3)
+    at = data.GetODE2Coordinates() + 1e-4 * numbers.standard_normal(data.ODE2Size())
+    velocity, acceleration = (numbers.standard_normal(at.size) for _ in range(2))
+    oil = scene.legs.states().copy()
+    assert oil.size > 0
+    flow = 1e9 * numbers.standard_normal(oil.size)
+    scene.legs.known[START_RATE] = flow
+    data.SetODE2Coordinates(at)
+    data.SetODE2Coordinates_t(velocity)
+    data.SetODE2Coordinates_tt(acceleration)
+    slide(scene, rest)
+    # what a constant acceleration gives; rounding
+    np.testing.assert_allclose(
+        data.GetODE2Coordinates(), at + velocity * rest + acceleration * rest**2 / 2.0, rtol=1e-14
+    )
+    np.testing.assert_allclose(data.GetODE2Coordinates_t(), velocity + acceleration * rest, rtol=1e-14)
+    np.testing.assert_allclose(scene.legs.states(), oil + flow * rest, rtol=1e-14)
+    # what the pin remembers is of where it is now
+    pin = scene.clearance_joints[PIN]
+    motion = pin.item.relative()
+    (x, y, _), (vx, vy, _) = motion.displacement, motion.velocity
+    distance = float(np.hypot(x, y))
+    assert pin.kept.depth == pytest.approx(distance - pin.contact.bearing.clearance, abs=1e-13)
+    assert pin.kept.rate == pytest.approx((x * vx + y * vy) / distance, rel=1e-9)
+
+
+@pytest.mark.parametrize("scene", ["smooth", "with_clearance"])
+@pytest.mark.parametrize("beside", [-1e-8, 1e-8])
+def test_one_rest_is_moved_over_once(scene: str, beside: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    # and steps go on from its end, on the grid: else another would be needed to get back to it
+    rests: list[float] = []
+
+    def slid(moving: Any, rest: float) -> None:
+        rests.append(rest)
+        slide(moving, rest)
+
+    monkeypatch.setattr("support_exudyn.formulations.exudyn.solver.solver.slide", slid)
+    found, without = (simulate(replace(SCENES[scene](t), duration=0.012)) for t in (BREAK + beside, BREAK))
+    assert rests == [pytest.approx(abs(beside), rel=1e-6)]
+    assert found.counts.steps == without.counts.steps

@@ -26,7 +26,7 @@ from user_forces import (
 )
 from user_forces.connector.item import Attachment, compiled_kernel
 from user_forces.contact import ContactForce, SlipHistory
-from user_forces.kernel import kernel, sign
+from user_forces.kernel import kernel, limited, sign
 from user_forces.lawful import LawError, check_laws, look
 
 BEARING = JournalBearing(bore_radius=0.0655, clearance=0.0015)
@@ -188,3 +188,12 @@ def test_a_contact_of_such_laws_has_such_a_force(contact: JournalContact, depth:
     ):
         with pytest.raises(LawError, match=r"gives a force of (nan|-inf) N"):
             look(contact, *found[:5])
+
+
+@pytest.mark.parametrize(
+    "ends", [(math.nan, 0.0, 1.0), (0.5, 0.0, 1.0), (-1.0, 0.0, 1.0), (math.inf, 0.0, 1.0)]
+)
+def test_limits_keep_what_is_no_number(ends: tuple[float, float, float]) -> None:
+    x, low, high = ends
+    found = limited(x, low, high)
+    assert math.isnan(found) if math.isnan(x) else found == min(max(x, low), high)

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from support_exudyn import (
+    EndStops,
     HydraulicCylinder,
     OilColumn,
     Result,
@@ -90,6 +91,19 @@ def test_a_leg_set_to_the_pressure_of_its_valve_and_let_up_keeps_it_closed(formu
     assert [what for what, _ in told(result) if "valve" in what] == []
     assert result["leg0.yielded"].max() == 0.0
     assert result["leg0.yield_flow"].max() == 0.0
+
+
+@pytest.mark.parametrize("formulation", FORMULATIONS)
+def test_a_leg_that_starts_on_its_stop_meets_it_again_and_again(formulation: str) -> None:
+    on_it, beside = (
+        run(replace(COLUMN, end_stops=EndStops(lowest=low, highest=0.5)), formulation, -0.3, duration=0.08)
+        for low in (0.0, -1e-9)
+    )
+    stops = [[event for event in one.oil_events["leg0"] if "stop" in event.what] for one in (on_it, beside)]
+    assert len(stops[0]) == len(stops[1]) >= 3
+    for one, other in zip(*stops, strict=True):
+        assert (one.what, one.begins) == (other.what, other.begins)
+        assert one.time == pytest.approx(other.time, abs=1e-7)
 
 
 @pytest.mark.parametrize("formulation", FORMULATIONS)
