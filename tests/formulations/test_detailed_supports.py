@@ -119,9 +119,6 @@ def test_pins_and_guide_carry_what_a_static_balance_says(held: Result, name: str
     assert held[f"{name}_guide.moment"][-1] == pytest.approx(rod * abs(n[1]) * model.rod_centre, abs=1e-3)
 
 
-# --- energy ---
-
-
 # --- the two-leg shield ---
 
 

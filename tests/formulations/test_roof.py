@@ -1,4 +1,4 @@
-"""Roofs and applied forces: closed forms, an independent integrator, statics and energies."""
+"""Roofs: closed forms, an independent integrator, statics of a settled start, and energies."""
 
 from __future__ import annotations
 

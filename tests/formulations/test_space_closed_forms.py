@@ -186,9 +186,6 @@ def test_a_pressed_journal_carries_the_integral_along_its_axis(shift: float, til
     assert off[-1] < off[0] / 2.0 ** (2.0 * 3.0) + floor or off[0] < floor
 
 
-# --- a support on oil columns that are driven apart ---
-
-
 # --- bodies that a clearance bearing alone joins ---
 
 
