@@ -9,7 +9,7 @@ so that it is of the size of what it changes. W is the volume that the oil has w
 states and of integrals over time are -1 for none.
 """
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -77,4 +77,5 @@ class LegArrays(NamedTuple):
 
     def copies(self) -> "LegArrays":
         """Return a copy in which a run may change all arrays."""
-        return LegArrays(*(part.copy() for part in self))
+        parts: list[Any] = [part.copy() for part in self]
+        return LegArrays(*parts)

@@ -53,7 +53,8 @@ class SceneBuilder(JointBuilder):
         for (body, point, is_still), axes in zip(ends, self.frames(place), strict=True):
             frame = placed(axes, self.local(body, point))
             mounts.append(Mount(self.item(body), frame, is_still or body == GROUND))
-        return JointItem(self.mbs, place.contact, *mounts)
+        bore, journal = mounts
+        return JointItem(self.mbs, place.contact, bore, journal)
 
     def frames(self, place: ContactPlace | SectionPlace) -> tuple[Matrix, Matrix]:
         """Axes of bore and journal in the start posture, in columns (3, 3)."""
