@@ -37,10 +37,6 @@ CHANNELS = (
 )  # fmt: skip
 
 
-def _between(a: Vector2, b: Vector2) -> Vector2:
-    return 0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])
-
-
 # body that is struck, by the name of the place
 PLACES = {
     "tip": "canopy",
@@ -53,14 +49,18 @@ PLACES = {
 
 def place_of(machine: HydraulicSupport, place: str) -> Vector2:
     """Where a block strikes in the start posture [m]; the tail beam, a part of the shield, in its centre."""
+
+    def between(a: Vector2, b: Vector2) -> Vector2:
+        return 0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])
+
     start = machine.start()
     front, rear = start.ends["front_head"], start.ends["rear_head"]
     (tail,) = (part for part in machine.parts["shield"] if part.name == TAIL)
     return {
         "tip": start.tip,
-        "between": _between(start.tip, front),
-        "over the legs": _between(front, rear),
-        "shield": _between(start.front_shield, start.hinge),
+        "between": between(start.tip, front),
+        "over the legs": between(front, rear),
+        "shield": between(start.front_shield, start.hinge),
         "tail beam": moved(tail.centre, machine.rear_shield, start.rear_shield, start.shield),
     }[place]
 
@@ -188,7 +188,7 @@ def yield_valve(machine: str) -> YieldValve:
     return valve
 
 
-def cases(*, small: bool = False) -> list[Blow]:
+def all_blows(*, small: bool = False) -> list[Blow]:
     """All blows; small: the middle one on the reference support alone, with all places, pins and legs."""
     machines, blows = (MACHINES[:1], (MIDDLE,)) if small else (MACHINES, BLOWS)
     return [

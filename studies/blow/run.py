@@ -7,151 +7,178 @@ without: pressures, flow, pin forces, tilt.
 
 from __future__ import annotations
 
-import sys
 from collections import Counter
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
 
 from studies.blow import blows as plan
-from studies.blow.blows import (
-    BEFORE,
-    MACHINES,
-    PINS,
-    PLACES,
-    STRIKE,
-    Blow,
-    cases,
-    middle,
-    yield_valve,
-)
-from studies.common.numbers import Found, Number, cell, measured
+from studies.blow.blows import BEFORE, MACHINES, PINS, PLACES, STRIKE, Blow, all_blows, middle, yield_valve
+from studies.common.numbers import Found, Measures, cell
 from studies.common.panels import finish, grid
-from studies.common.rise import DEGREES, MeasuredRun, Series, between
-from studies.common.runs import run_cases
+from studies.common.rise import DEGREES, Series, between
 from studies.common.study import Study
 from studies.common.support_legs import PAIRS
 from studies.common.words import text_table
-from support_exudyn import Result
+from support_exudyn import Result, Scenario
 from support_exudyn.machines.four_bar_shield import PINS as ALL_PINS
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.page.pieces import Sheet
 
 OVERLOAD = 1.2  # of the yield force, up to which no part may fail (EN 1804-1, 4.3.2)
 
+
 # --- measures ---
 
 
-def struck(run: MeasuredRun, channel: str) -> Series:
+def struck(run: Result, channel: str) -> Series:
     """A channel from just before the blow on, shape (n,)."""
     values: Series = run[channel][between(run, STRIKE - BEFORE, float(run.time[-1]))]
     return values
 
 
-def most(run: MeasuredRun, channel: str, names: Iterable[str]) -> float:
+def most(run: Result, channel: str, names: Iterable[str]) -> float:
     """The largest value of a channel of any of some members."""
     return max(float(struck(run, channel.format(name)).max()) for name in names)
 
 
-def tilt(run: MeasuredRun) -> float:
+def tilt(run: Result) -> float:
     """Largest turn of the canopy from its start, with its sign [rad]; negative: its tip goes down."""
     turn = struck(run, "canopy.angle") - struck(run, "canopy.angle")[0]
     return float(turn[np.argmax(np.abs(turn))])
 
 
-def rise(run: MeasuredRun) -> float:
+def rise(run: Result) -> float:
     """Largest rise of the pressure of any leg above that before the blow [Pa]."""
     courses = [struck(run, f"{name}.pressure") for name in PAIRS]
     return max(float((course - course[0]).max()) for course in courses)
 
 
-# unit, scale from SI, and value in SI, by name
-MEASURES: dict[str, tuple[str, float, Callable[[MeasuredRun], float]]] = {
-    "pressure": ("MPa", 1e-6, lambda run: most(run, "{}.pressure", PAIRS)),
-    "rise": ("MPa", 1e-6, rise),
-    "least_pressure": ("MPa", 1e-6, lambda run: min(float(struck(run, f"{n}.pressure").min()) for n in PAIRS)),
-    "flow": ("l/min", 6e4, lambda run: most(run, "{}.yield_flow", PAIRS)),
-    "volume": ("l", 1e3, lambda run: sum(float(struck(run, f"{name}.yielded")[-1]) for name in PAIRS)),
-    "pin_force": ("kN", 1e-3, lambda run: most(run, "pin.{}.force", ALL_PINS)),
-    "tilt": ("deg", DEGREES, tilt),
-    "block_force": ("kN", 1e-3, lambda run: most(run, "{}.force", ("block",))),
-}
+MEASURES: Measures = {
+    "pressure": ("MPa", lambda run: 1e-6 * most(run, "{}.pressure", PAIRS)),
+    "rise": ("MPa", lambda run: 1e-6 * rise(run)),
+    "least_pressure": (
+        "MPa", lambda run: 1e-6 * min(float(struck(run, f"{name}.pressure").min()) for name in PAIRS)
+    ),
+    "flow": ("l/min", lambda run: 6e4 * most(run, "{}.yield_flow", PAIRS)),
+    "volume": ("l", lambda run: 1e3 * sum(float(struck(run, f"{name}.yielded")[-1]) for name in PAIRS)),
+    "pin_force": ("kN", lambda run: 1e-3 * most(run, "pin.{}.force", ALL_PINS)),
+    "tilt": ("deg", lambda run: DEGREES * tilt(run)),
+    "block_force": ("kN", lambda run: 1e-3 * most(run, "{}.force", ("block",))),
+}  # fmt: skip
 OF_VALVES = ("flow", "volume")
 
 
-def numbers(blows: Sequence[Blow], runs: Mapping[str, Result]) -> list[Number]:
-    """All numbers of the study."""
-    return [
-        measured(measure, blow.name, unit, runs[blow.name], lambda run, s=scale, get=get: s * get(run))  # type: ignore[misc]
-        for blow in blows
-        for measure, (unit, scale, get) in MEASURES.items()
-        if blow.valve or measure not in OF_VALVES
-    ]
+# --- the study ---
 
 
-def ratios(found: Found, measure: str, blows: Iterable[Blow], **change: Any) -> list[float]:
-    """A measure of blows over that of the same blows with other fields, of those alone that were run both."""
-    pairs = [(blow.name, replace(blow, **change).name) for blow in blows]
-    return [
-        found[measure, name].value / found[measure, other].value
-        for name, other in pairs
-        if name != other and (measure, name) in found and (measure, other) in found
-    ]
+class BlowStudy(Study):
+    """What does a block do that falls on a set support, and what does clearance do to it?"""
 
+    name, seconds = "blow", 340.0
 
-def spread(values: Sequence[float]) -> tuple[float, ...]:
-    """Least, median and largest of some values."""
-    return min(values), float(np.median(values)), max(values)
+    @cached_property
+    def blows(self) -> list[Blow]:
+        """All blows; with a number of runs those of the small form."""
+        return all_blows(small=self.chosen.runs is not None)
 
+    @cached_property
+    def valved(self) -> list[Blow]:
+        """The blows on legs with yield valves."""
+        return [one for one in self.blows if one.valve]
 
-def overloaded(found: Found, blows: Iterable[Blow]) -> int:
-    """How many blows raise a leg beyond 1.2 times its yield pressure."""
-    limits = {machine: 1e-6 * OVERLOAD * yield_valve(machine).opening_pressure for machine in MACHINES}
-    return sum(found["pressure", one.name].value > limits[one.machine] for one in blows)
+    @property
+    def shown(self) -> Blow:
+        """The hardest blow on the tip, whose course is drawn."""
+        hard = max({(one.mass, one.height) for one in self.blows}, key=lambda one: one[0] * one[1])
+        return Blow(MACHINES[0], "tip", *hard, "all", valve=True)
 
+    def cases(self) -> dict[str, Scenario]:
+        return {one.name: one.scenario() for one in self.blows}
 
-# --- tables ---
+    def measures(self, run: Result) -> Measures:
+        valved = "front_column.yield_flow" in run.channels
+        return {name: about for name, about in MEASURES.items() if valved or name not in OF_VALVES}
 
+    def saved(self) -> dict[str, Result]:
+        return {name: self.runs[name] for name in (self.shown.name, replace(self.shown, pins="ideal").name)}
 
-def key_table(found: Found, machine: str) -> Sheet:
-    """The middle blow on a machine with valves, a row a place."""
-    columns: dict[str, tuple[str, str, bool]] = {  # measure, pins, valve
-        "no valves, ideal [MPa]": ("pressure", "ideal", False),
-        "ideal [MPa]": ("pressure", "ideal", True),
-        "all loose [MPa]": ("pressure", "all", True),
-        "flow, ideal [l/min]": ("flow", "ideal", True),
-        "pin, ideal [kN]": ("pin_force", "ideal", True),
-        "pin, one loose [kN]": ("pin_force", "one", True),
-        "pin, all loose [kN]": ("pin_force", "all", True),
-        "tilt, all loose [deg]": ("tilt", "all", True),
-    }
-    rows = [
-        (
-            place,
-            *(cell(found[name, middle(machine, place, pins, valve=v)]) for name, pins, v in columns.values()),
-        )
-        for place in PLACES
-    ]
-    return text_table(("place", *columns), rows, wide=True)
+    def ratios(self, measure: str, blows: Iterable[Blow], **change: Any) -> list[float]:
+        """A measure of blows over that of the same blows with other fields, where both were run."""
+        pairs = [((measure, blow.name), (measure, replace(blow, **change).name)) for blow in blows]
+        found = self.found
+        return [
+            found[one].value / found[other].value
+            for one, other in pairs
+            if one != other and one in found and other in found
+        ]
 
+    @staticmethod
+    def spread(values: Sequence[float]) -> tuple[float, ...]:
+        """Least, median and largest of some values."""
+        return min(values), float(np.median(values)), max(values)
 
-def clearance_table(found: Found, valved: Sequence[Blow]) -> Sheet:
-    """Peaks with clearance over those with ideal pins: least, median, largest, by place."""
-    columns = {
-        f"{title}, {pins} loose": (measure, pins)
-        for measure, title in (("rise", "rise of pressure"), ("pin_force", "pin force"))
-        for pins in ("one", "all")
-    }
+    def overloaded(self, blows: Iterable[Blow]) -> int:
+        """How many blows raise a leg beyond 1.2 times its yield pressure."""
+        limits = {machine: 1e-6 * OVERLOAD * yield_valve(machine).opening_pressure for machine in MACHINES}
+        return sum(self.found["pressure", one.name].value > limits[one.machine] for one in blows)
 
-    def text(place: str, measure: str, pins: str) -> str:
-        chosen = [one for one in valved if (one.place, one.pins) == (place, pins)]
-        return ", ".join(f"{value:.2f}" for value in spread(ratios(found, measure, chosen, pins="ideal")))
+    def tables(self) -> dict[str, Sheet]:
+        """The middle blow on each machine with valves, a row a place; peaks over those with ideal pins."""
+        columns: dict[str, tuple[str, str, bool]] = {  # measure, pins, valve
+            "no valves, ideal [MPa]": ("pressure", "ideal", False),
+            "ideal [MPa]": ("pressure", "ideal", True),
+            "all loose [MPa]": ("pressure", "all", True),
+            "flow, ideal [l/min]": ("flow", "ideal", True),
+            "pin, ideal [kN]": ("pin_force", "ideal", True),
+            "pin, one loose [kN]": ("pin_force", "one", True),
+            "pin, all loose [kN]": ("pin_force", "all", True),
+            "tilt, all loose [deg]": ("tilt", "all", True),
+        }
+        sheets, names_of = {}, {"reference": "middle_blow", "zf18000": "middle_blow_zf18000"}
+        for machine in dict.fromkeys(one.machine for one in self.blows):
+            rows = []
+            for place in PLACES:
+                names = ((name, middle(machine, place, pins, valve=v)) for name, pins, v in columns.values())
+                rows.append((place, *(cell(self.found[name]) for name in names)))
+            sheets[names_of[machine]] = text_table(("place", *columns), rows, wide=True)
+        ratios: dict[str, tuple[str, str]] = {
+            f"{title}, {pins} loose": (measure, pins)
+            for measure, title in (("rise", "rise of pressure"), ("pin_force", "pin force"))
+            for pins in ("one", "all")
+        }
 
-    rows = [(place, *(text(place, *column) for column in columns.values())) for place in PLACES]
-    return text_table(("place", *columns), rows)
+        def text(place: str, measure: str, pins: str) -> str:
+            chosen = [one for one in self.valved if (one.place, one.pins) == (place, pins)]
+            return ", ".join(
+                f"{value:.2f}" for value in self.spread(self.ratios(measure, chosen, pins="ideal"))
+            )
+
+        by_place = [(place, *(text(place, *column) for column in ratios.values())) for place in PLACES]
+        return {**sheets, "clearance": text_table(("place", *ratios), by_place)}
+
+    def figures(self) -> dict[str, Figure]:
+        return {
+            "peaks": peak_figure(self.found, list(dict.fromkeys(one.machine for one in self.blows))),
+            "courses": course_figure(self.runs, self.shown),
+            "clearance_ratio": clearance_figure(self),
+        }
+
+    def words(self) -> dict[str, object]:
+        on_tail = [self.runs[one.name] for one in self.blows if one.place == "tail beam"]
+        tail = Counter(max(ALL_PINS, key=lambda pin: most(run, "pin.{}.force", (pin,))) for run in on_tail)
+        return {
+            "plan": plan,
+            "opened": [one for one in self.valved if self.found["flow", one.name].value > 0.0],
+            "first": MACHINES[0],
+            "loose": {pins: [one for one in self.blows if one.pins == pins] for pins in ("one", "all")},
+            "largest": max(self.valved, key=lambda one: self.found["flow", one.name].value).name,
+            "tail": tail.most_common(),
+        }
 
 
 # --- figures ---
@@ -211,76 +238,17 @@ def course_figure(runs: Mapping[str, Result], shown: Blow) -> Figure:
     return finish(drawing, panels, 4)
 
 
-def clearance_figure(found: Found, valved: Sequence[Blow]) -> Figure:
+def clearance_figure(study: BlowStudy) -> Figure:
     """Peaks with clearance over those with ideal pins: rise of the leg pressure (a), pin force (b)."""
     drawing, panels = grid(80, 1, 2)
     titles = {"rise": "rise of the pressure", "pin_force": "pin force"}
     for axes, (measure, title) in zip(panels.flat, titles.items(), strict=True):
         for pins, mark in (("one", "s"), ("all", "o")):
-            chosen = [one for one in valved if one.pins == pins]
+            chosen = [one for one in study.valved if one.pins == pins]
             axes.plot(
-                [1e-3 * one.energy for one in chosen], ratios(found, measure, chosen, pins="ideal"), mark,
+                [1e-3 * one.energy for one in chosen], study.ratios(measure, chosen, pins="ideal"), mark,
                 color=LOOKS[pins][0], mfc="none", ms=4.5, ls="none", label=TITLES[pins],
             )  # fmt: skip
         axes.axhline(1.0, color="#777777", lw=0.8)
         axes.set(xscale="log", xlabel="energy of the block [kJ]", ylabel=f"{title}, over ideal pins")
     return finish(drawing, panels, 2)
-
-
-# --- the study ---
-
-
-class BlowStudy(Study):
-    """What does a block do that falls on a set support, and what does clearance do to it?"""
-
-    name, seconds = "blow", 340.0
-
-    def work(self) -> None:
-        """All blows; with a number of runs the small form."""
-        self.blows = blows = cases(small=self.chosen.runs is not None)
-        self.runs = run_cases({one.name: one.scenario() for one in blows}, self.chosen)
-        self.machines = list(dict.fromkeys(one.machine for one in blows))
-        self.numbers = numbers(blows, self.runs)
-        self.valved = [one for one in blows if one.valve]
-        hard = max({(one.mass, one.height) for one in blows}, key=lambda one: one[0] * one[1])
-        self.shown = Blow(self.machines[0], "tip", *hard, "all", valve=True)
-
-    def saved(self) -> dict[str, Result]:
-        """The blow that is drawn, with clearance and with ideal pins."""
-        return {name: self.runs[name] for name in (self.shown.name, replace(self.shown, pins="ideal").name)}
-
-    def figures(self) -> dict[str, Figure]:
-        """All figures."""
-        return {
-            "peaks": peak_figure(self.found, self.machines),
-            "courses": course_figure(self.runs, self.shown),
-            "clearance_ratio": clearance_figure(self.found, self.valved),
-        }
-
-    def tables(self) -> dict[str, Sheet]:
-        """All tables."""
-        names = dict(zip(("middle_blow", "middle_blow_zf18000"), self.machines, strict=False))
-        of_machines = {name: key_table(self.found, machine) for name, machine in names.items()}
-        return {
-            "middle_blow": of_machines["middle_blow"],
-            "clearance": clearance_table(self.found, self.valved),
-        } | (of_machines)
-
-    def words(self) -> dict[str, object]:
-        """Blows of several kinds."""
-        found, blows = self.found, self.blows
-        on_tail = [self.runs[one.name] for one in blows if one.place == "tail beam"]
-        tail = Counter(max(ALL_PINS, key=lambda pin: most(run, "pin.{}.force", (pin,))) for run in on_tail)
-        return {
-            "plan": plan,
-            "run": sys.modules[__name__],
-            "blows": blows,
-            "valved": self.valved,
-            "bare": [one for one in blows if not one.valve],
-            "opened": [one for one in self.valved if found["flow", one.name].value > 0.0],
-            "first": self.machines[0],
-            "loose": {pins: [one for one in blows if one.pins == pins] for pins in ("one", "all")},
-            "largest": max(self.valved, key=lambda one: found["flow", one.name].value).name,
-            "tail": tail.most_common(),
-            "shown": self.shown,
-        }

@@ -9,7 +9,8 @@ from studies.claims.evidence import RELATIONS, Evidence, Measured, Verdict, ever
 from studies.claims.plausible_runs import CLEARANCES, IDEAL
 from studies.common import paper_machine
 from studies.common.data import tables
-from studies.common.numbers import DIGITS, rounded
+from studies.common.numbers import DIGITS
+from support_exudyn.postprocessing.shown_numbers import rounded
 
 LAST_DIGIT = 5.1e-4  # of a printed stiffness [N/mm^1.5]
 

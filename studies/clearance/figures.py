@@ -1,7 +1,7 @@
 """Counterparts of Fig. 3 to 12 of the paper."""
 
-from collections.abc import Callable, Mapping, Sequence
-from typing import NamedTuple
+from collections.abc import Callable, Mapping
+from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -28,6 +28,7 @@ COLOURS = {0.5: "#009E73", 1.0: "#E69F00", 1.5: "#0072B2", 2.0: "#CC79A7"}  # Ok
 DASHES: dict[float, style.Dashes] = {0.5: "-", 1.0: (0, (5, 1)), 1.5: (0, (3, 1, 1, 1)), 2.0: DOTTED}
 NO_FRICTION = "#777777"
 Results = Mapping[str, Result]
+Looks = Mapping[str, Mapping[str, Any]]  # of curves, by case
 Curve = Callable[[Result], rise.Series]  # of a run, at all records
 FRICTIONS = f"friction {FRICTION}", "no friction"
 LARGEST_FIRST = [f"{size:.1f} mm" for size in reversed(SIZES_MM)]
@@ -45,29 +46,21 @@ LIVE: dict[str, LivePanels] = {  # which panels are time series that readers can
 }
 
 
-class CurveLook(NamedTuple):
-    """How the curve of a case is drawn."""
-
-    case: str
-    colour: str
-    dashes: style.Dashes
-    label: str
-    width: float = 0.9
+INFLUENCE: Looks = {  # the largest fluctuation undermost
+    DRY: {"color": style.WITH_CLEARANCE, "label": f"{CLEARANCE_MM} mm, friction {FRICTION}"},
+    SMOOTH: {"color": style.SMOOTH, "lw": 1.2, "label": f"{CLEARANCE_MM} mm, no friction"},
+    IDEAL_DRY: {"color": style.IDEAL, "ls": DOTTED, "lw": 1.0, "label": f"ideal pin, friction {FRICTION}"},
+    IDEAL: {"color": style.IDEAL, "ls": DASHED, "lw": 1.0, "label": "ideal pin, no friction"},
+}
 
 
-INFLUENCE = (  # the largest fluctuation undermost
-    CurveLook(DRY, style.WITH_CLEARANCE, "-", f"{CLEARANCE_MM} mm, friction {FRICTION}"),
-    CurveLook(SMOOTH, style.SMOOTH, "-", f"{CLEARANCE_MM} mm, no friction", 1.2),
-    CurveLook(IDEAL_DRY, style.IDEAL, DOTTED, f"ideal pin, friction {FRICTION}", 1.0),
-    CurveLook(IDEAL, style.IDEAL, DASHED, "ideal pin, no friction", 1.0),
-)
-
-
-def _sizes(subject: Subject) -> list[CurveLook]:
+def _sizes(subject: Subject) -> Looks:
     """The largest clearance undermost."""
     mu = subject.friction
-    loose = [CurveLook(case_name(n, mu), COLOURS[n], DASHES[n], f"{n:.1f} mm") for n in reversed(SIZES_MM)]
-    return [*loose, CurveLook(ideal_name(mu), style.IDEAL, DASHED, "ideal pin")]
+    return {
+        case_name(n, mu): {"color": COLOURS[n], "ls": DASHES[n], "label": f"{n:.1f} mm"}
+        for n in reversed(SIZES_MM)
+    } | {ideal_name(mu): {"color": style.IDEAL, "ls": DASHED, "label": "ideal pin"}}
 
 
 def _of(channel: str, scale: float) -> Curve:
@@ -77,19 +70,16 @@ def _of(channel: str, scale: float) -> Curve:
 def _draw(
     axes: Axes,
     results: Results,
-    looks: Sequence[CurveLook],
+    looks: Looks,
     curve: Curve,
     span: tuple[float, float],
     watched: rise.Watched = rise.PAPER,
 ) -> None:
     """Curves of cases over time, between two times [s]."""
-    for look in looks:
-        run = results[look.case]
+    for case, look in looks.items():
+        run = results[case]
         inside = rise.between(run, *span)
-        axes.plot(
-            run.time[inside], curve(run)[inside], color=look.colour, ls=look.dashes, lw=look.width,
-            label=look.label,
-        )  # fmt: skip
+        axes.plot(run.time[inside], curve(run)[inside], **{"lw": 0.9, **look})
     axes.set(xlabel="time [s]", xlim=span)
     time_ticks(axes, watched)
 
@@ -100,7 +90,9 @@ def _draw(
 def influence_figures(results: Results) -> dict[str, Figure]:
     """All figures of section 3, by file name."""
     label = "angular acceleration\n[deg/s²]"
-    smooth = [look for look in INFLUENCE if look.case != IDEAL_DRY]  # friction moves no ideal pin
+    smooth = {
+        case: look for case, look in INFLUENCE.items() if case != IDEAL_DRY
+    }  # friction moves no ideal pin
     return {
         "fig5_pin_force": split_figure(results, rise.FORCE, 1e-3, "pin force [kN]"),
         "fig3_angular_velocity": window_figure(results, smooth, rise.PAPER, (0.0, rise.END)),
@@ -117,7 +109,7 @@ def split_figure(results: Results, channel: str, scale: float, label: str) -> Fi
     panels = drawing.subplot_mosaic([["dry", "smooth"], ["rise", "rise"]])
     curve, whole, unit = _of(channel, scale), [panels["dry"], panels["smooth"]], label.partition("[")[2][:-1]
     for axes, case in zip(whole, (DRY, SMOOTH), strict=True):
-        run, looks = results[case], [one for one in INFLUENCE if one.case in (case, ideal_of(case))]
+        run, looks = results[case], {one: INFLUENCE[one] for one in (case, ideal_of(case))}
         _draw(axes, results, looks, curve, (0.0, rise.END))
         values = curve(run)
         n = int(abs(values).argmax())
@@ -137,9 +129,7 @@ def split_figure(results: Results, channel: str, scale: float, label: str) -> Fi
     return finish(drawing, list(panels.values()), 2, panels["rise"])
 
 
-def window_figure(
-    results: Results, looks: Sequence[CurveLook], watched: rise.Watched, whole: tuple[float, float]
-) -> Figure:
+def window_figure(results: Results, looks: Looks, watched: rise.Watched, whole: tuple[float, float]) -> Figure:
     """The angular velocity, and three windows of the motion enlarged."""
     drawing, panels = grid(115, 2, 2)
     scale = (watched.end - watched.start) / (rise.END - rise.START)
@@ -179,14 +169,13 @@ def size_figures(subject: Subject, results: Results, found: Found) -> dict[str, 
     if all(f"{column}.angle" in channels for column in COLUMNS):
         names = {column: column.replace("_", " ") for column in COLUMNS}
         angles: dict[tuple[str, str], Curve] = {
-            (f"{name} [deg]", f"{name}, change [deg]"): _angle(column) for column, name in names.items()
+            (f"{name} [deg]", f"{name}, change [deg]"): lambda run, column=column: (  # type: ignore[misc]
+                DEGREES * rise.rearward_angle(run, column)
+            )
+            for column, name in names.items()
         }
         drawings["fig11_column_angles"] = change_figure(subject, results, angles)
     return drawings
-
-
-def _angle(column: str) -> Curve:
-    return lambda run: DEGREES * rise.rearward_angle(run, column)
 
 
 def panel_figure(subject: Subject, results: Results, curve: Curve, label: str) -> Figure:
@@ -195,12 +184,12 @@ def panel_figure(subject: Subject, results: Results, curve: Curve, label: str) -
     watched, mu = subject.watched, subject.friction
     edge = 1e-3 * (watched.end - watched.start)  # the jumps at both ends would set the scale
     for axes, size in zip(panels.flat, reversed(SIZES_MM), strict=True):
-        looks = (
-            CurveLook(case_name(size, mu), style.WITH_CLEARANCE, "-", f"friction {mu:g}", 0.8),
-            CurveLook(case_name(size, 0.0), style.SMOOTH, "-", "no friction", 0.8),
-            CurveLook(ideal_name(mu), style.IDEAL, DOTTED, f"ideal, friction {mu:g}", 0.8),
-            CurveLook(ideal_name(0.0), style.IDEAL, DASHED, "ideal, no friction", 0.8),
-        )
+        looks = {
+            case_name(size, mu): {"color": style.WITH_CLEARANCE, "label": f"friction {mu:g}"},
+            case_name(size, 0.0): {"color": style.SMOOTH, "label": "no friction"},
+            ideal_name(mu): {"color": style.IDEAL, "ls": DOTTED, "label": f"ideal, friction {mu:g}"},
+            ideal_name(0.0): {"color": style.IDEAL, "ls": DASHED, "label": "ideal, no friction"},
+        }
         _draw(axes, results, looks, curve, (watched.start + edge, watched.end - edge), watched)
         axes.set(xlim=(watched.start, watched.end), ylabel=label)
         time_ticks(axes, watched)
@@ -215,13 +204,13 @@ def tip_path_figure(subject: Subject, results: Results) -> Figure:
     watched = subject.watched
     middle, half = 0.5 * (watched.start + watched.end), 0.05 * (watched.end - watched.start)
     ends: list[tuple[float, float]] = []
-    for look in _sizes(subject):
-        run = results[look.case]
+    for case, look in _sizes(subject).items():
+        run = results[case]
         x, y = 1e3 * run["tip.x"], 1e3 * run["tip.y"]
         inside, close = watched.in_rise(run), rise.between(run, middle - half, middle + half)
         ends += zip(x[close], y[close], strict=True)
         for axes in (whole, near):
-            axes.plot(x[inside], y[inside], color=look.colour, ls=look.dashes, lw=look.width, label=look.label)
+            axes.plot(x[inside], y[inside], lw=0.9, **look)
             axes.set(xlabel="tip, horizontal [mm]", ylabel="tip, height [mm]")
     forward_arrow(whole)
     x_ends, y_ends = zip(*ends, strict=True)

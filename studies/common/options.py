@@ -1,12 +1,12 @@
 """How studies are run: where, by how many processes, how large, and on whose machine."""
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from studies.common.subject import Subject, paper_subject
 from support_exudyn.sweeps.workers import Workers
 
-KEPT, WITNESSES = "kept", "witness"  # folders of runs, beside those of the studies
+KEPT, WITNESSES = "kept", "witness"  # folders of runs and of those of witnesses, beside those of the studies
 
 
 @dataclass(frozen=True)
@@ -27,12 +27,3 @@ class Options:
     runs: int | None = None
     subject: Subject = field(default_factory=paper_subject)
     thorough: bool = False
-
-    @property
-    def witnesses(self) -> Path | None:
-        """The folder of runs of witnesses, beside that of kept runs; None: none is kept."""
-        return None if self.kept is None else self.kept.with_name(WITNESSES)
-
-    def of_study(self, name: str, workers: Workers) -> "Options":
-        """These options for one of several studies, in a folder of its own."""
-        return replace(self, out=self.out / name, workers=workers)

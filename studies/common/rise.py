@@ -1,45 +1,29 @@
 """What is measured of a rise: posture, force and shaking, in the same words for every study.
 
-A run is anything that hands out channels by name (`support_exudyn.Result` and others). Means, spreads and
-extremes of channels are taken from every step of a run; of what is computed from several channels, such as a
-departure from another run, they are integrals by the trapezoidal rule through the records.
+Means, spreads and extremes of channels are taken from every step of a run; of what is computed from several
+channels, such as a departure from another run, they are integrals by the trapezoidal rule through the records.
 """
 
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Literal, Protocol
+from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from support_exudyn import Result
-from support_exudyn.mechanics.time_statistics import TimeWindow
 
 Series = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
+
+Measure = Callable[[Result], float]
+OfColumn = Callable[[Result, str], Series]  # an angle of a column [rad]
 
 DEGREES = 180.0 / np.pi
 TREND_WINDOW = 0.1  # [s]: slower is the trend, faster is fluctuation; the paper's contact shakes at 20 Hz
 WINDOW_SHARE = 0.05  # of the motion: the window of a shorter one than the paper's
 THIRDS = {"early": (0.05, 0.3), "middle": (0.375, 0.625), "late": (0.7, 0.95)}  # of the rise, less edges
-
-
-class MeasuredRun(Protocol):
-    """What a measure needs of a run."""
-
-    @property
-    def time(self) -> Series:
-        """Times of the records [s], shape (n,)."""
-        ...
-
-    def __getitem__(self, name: str) -> Series:
-        """Values of a channel in SI, shape (n,)."""
-        ...
-
-    def window(self, name: str, after: float, until: float) -> TimeWindow:
-        """What a channel does between two times [s], from every step."""
-        ...
 
 
 @dataclass(frozen=True)
@@ -49,16 +33,15 @@ class Versus:
     missed: by how much it may be off because its times lie inside intervals of the statistics.
     """
 
-    get: Callable[[Any, Any], float]
-    missed: Callable[[Any, Any], float] = lambda run, ideal: 0.0
+    get: Callable[[Result, Result], float]
+    missed: Callable[[Result, Result], float] = lambda run, ideal: 0.0
 
 
-Measure = Callable[[Any], float]  # of a run
-TAKEN: dict[str, Callable[[TimeWindow], float]] = {
-    "largest": lambda window: window.largest[0],
-    "max": lambda window: window.greatest[0],
-    "min": lambda window: window.least[0],
-}
+@dataclass(frozen=True)
+class Count:
+    """A measure of a run that is a whole number."""
+
+    get: Callable[[Result], int]
 
 
 @dataclass(frozen=True)
@@ -77,7 +60,9 @@ class Crest:
 
     def __call__(self, run: Result) -> float:
         """The extreme, in the unit of the number."""
-        return self.scale * TAKEN[self.extreme](run.window(self.channel, self.begin, self.end))
+        window = run.window(self.channel, self.begin, self.end)
+        taken = {"largest": window.largest, "max": window.greatest, "min": window.least}
+        return self.scale * taken[self.extreme][0]
 
     def missed(self, run: Result) -> float:
         """By how much the extreme may be off because its times lie inside intervals of the statistics."""
@@ -90,7 +75,7 @@ def onset(pin: str, n: int, what: Literal["time", "speed"], scale: float = 1.0) 
     return lambda run: scale * float(getattr(run.onsets[pin][n], what))
 
 
-def between(run: MeasuredRun, begin: float, end: float) -> Mask:
+def between(run: Result, begin: float, end: float) -> Mask:
     """Mask of the records between two times [s]."""
     return (run.time >= begin - 1e-9) & (run.time <= end + 1e-9)
 
@@ -100,7 +85,7 @@ def mean(time: Series, values: Series) -> float:
     return float(np.diff(time) @ (values[1:] + values[:-1]) / (2.0 * (time[-1] - time[0])))
 
 
-def trend(run: MeasuredRun, values: Series, window: float = TREND_WINDOW) -> Series:
+def trend(run: Result, values: Series, window: float = TREND_WINDOW) -> Series:
     """Moving mean over a window [s], centred, by the trapezoidal rule through the records, shape (n,).
 
     Beyond the first and the last record the values stay what they are there.
@@ -114,10 +99,7 @@ def trend(run: MeasuredRun, values: Series, window: float = TREND_WINDOW) -> Ser
     return np.asarray((after - before) / (2.0 * half))
 
 
-OfColumn = Callable[[MeasuredRun, str], Series]  # an angle of a column [rad]
-
-
-def rearward_angle(run: MeasuredRun, column: str) -> Series:
+def rearward_angle(run: Result, column: str) -> Series:
     """Angle of a column as in Fig. 12 of the paper [rad]: between the column and the rearward horizontal.
 
     The only reading of its words that fits itself: tilting to the rear makes it smaller for both columns,
@@ -126,7 +108,7 @@ def rearward_angle(run: MeasuredRun, column: str) -> Series:
     return np.pi - run[f"{column}.angle"]
 
 
-def lean(run: MeasuredRun, column: str) -> Series:
+def lean(run: Result, column: str) -> Series:
     """How far a column is from the vertical [rad], >= 0."""
     return np.abs(run[f"{column}.angle"] - 0.5 * np.pi)
 
@@ -169,7 +151,7 @@ class Watched:
         length = self.end - self.start
         return {name: (self.start + a * length, self.start + b * length) for name, (a, b) in THIRDS.items()}
 
-    def in_rise(self, run: MeasuredRun) -> Mask:
+    def in_rise(self, run: Result) -> Mask:
         """Mask of the records of the motion."""
         return between(run, self.start, self.end)
 
@@ -177,7 +159,7 @@ class Watched:
         """The measure of the largest magnitude of a channel in the motion."""
         return Crest(channel, scale, self.start, self.end)
 
-    def mean(self, run: MeasuredRun, quantity: str | Series) -> float:
+    def mean(self, run: Result, quantity: str | Series) -> float:
         """Mean over the motion's time of a channel, or of a quantity given at all records, in its unit."""
         if isinstance(quantity, str):
             return run.window(quantity, self.start, self.end).mean
@@ -185,7 +167,7 @@ class Watched:
         return mean(run.time[inside], quantity[inside])
 
     def rms_fluctuation(
-        self, run: MeasuredRun, values: Series, begin: float | None = None, end: float | None = None
+        self, run: Result, values: Series, begin: float | None = None, end: float | None = None
     ) -> float:
         """Fluctuation: root mean square of a quantity less its trend, between two times, in its unit.
 
@@ -196,23 +178,24 @@ class Watched:
         fast = (values - self._trend(run, values))[inside]
         return float(np.sqrt(mean(run.time[inside], fast**2)))
 
-    def likeness(self, run: MeasuredRun, other: MeasuredRun, channel: str) -> float:
+    def likeness(self, run: Result, other: Result, channel: str) -> float:
         """Correlation of the trends of two runs over the rise: 1 if they have the same course."""
         begin, end = self.start + self.window, self.end - self.window
         mine = self._trend(run, run[channel])[between(run, begin, end)]
         its = self._trend(other, other[channel])[between(other, begin, end)]
         return float(np.corrcoef(mine, its)[0, 1])
 
-    def _trend(self, run: MeasuredRun, values: Series) -> Series:
+    def _trend(self, run: Result, values: Series) -> Series:
         """Trend of what happens in the rise: what was before it does not enter."""
         rise = self.in_rise(run)
         result = np.zeros_like(values)
         result[rise] = trend(run, values[rise], self.window)
         return result
 
-    def departure(self, run: MeasuredRun, ideal: MeasuredRun, channel: str) -> Series:
+    def departure(self, run: Result, ideal: Result, channel: str) -> Series:
         """A channel less that of the ideal pin, record by record over the rise."""
-        return run[channel][self.in_rise(run)] - ideal[channel][self.in_rise(ideal)]
+        less: Series = run[channel][self.in_rise(run)] - ideal[channel][self.in_rise(ideal)]
+        return less
 
     # --- measures, for tables of them; scale: to the unit of the number ---
 
@@ -227,7 +210,7 @@ class Watched:
     def stage_mean_of(self, channel: str, stage: str, scale: float = 1.0) -> Measure:
         """The measure of a channel's mean magnitude over a stage of the motion."""
 
-        def get(run: MeasuredRun) -> float:
+        def get(run: Result) -> float:
             inside = between(run, *self.stages[stage])
             return scale * mean(run.time[inside], np.abs(run[channel][inside]))
 
@@ -244,7 +227,7 @@ class Watched:
     def shift_of(self, channel: str, scale: float = 1.0, power: float = 1.0) -> Versus:
         """The measure of a channel's mean distance from that of the ideal pin; power 2: root mean square."""
 
-        def get(run: MeasuredRun, ideal: MeasuredRun) -> float:
+        def get(run: Result, ideal: Result) -> float:
             values = self.departure(run, ideal, channel) ** power
             return float(scale * mean(run.time[self.in_rise(run)], values) ** (1.0 / power))
 

@@ -3,7 +3,6 @@
 import csv
 import json
 import sys
-import tempfile
 import textwrap
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -190,8 +189,9 @@ class Study:
         A study with a witness names engine and method in every caption, and what the witness confirms.
         """
         every_run = {"study": self, "subject": self.subject, "runs": self.runs, "found": self.found}
-        blocks = {NUMBERS: [ALL_NUMBERS]} | filled(self.template(), {**every_run, **self.words()})
-        title, question = next((name, text) for name, text in blocks.items() if name != NUMBERS)
+        blocks = filled(self.template(), {**every_run, **self.words()})
+        blocks.setdefault(NUMBERS, [ALL_NUMBERS])
+        title, question = next(iter(blocks.items()))
         by, confirmed = (
             (witness.computed_by(), [witness.verdict(self.numbers)]) if self.has_witness else ("", [])
         )
@@ -250,9 +250,8 @@ def print_table(table: Sheet, width: int) -> None:
 def save_table(path: Path, table: Sheet) -> None:
     """Write a table as CSV; names of files stand in place of links."""
     with whole_file(path) as temporary, temporary.open("w", encoding="utf-8", newline="") as file:
-        writer = csv.writer(file)
-        writer.writerow(table.header)
-        writer.writerows(map(without_references, row) for row in table.rows)
+        rows = ([without_references(cell) for cell in row] for row in table.rows)
+        csv.writer(file).writerows([table.header, *rows])
 
 
 def work_in_folder(work: Callable[[Path], None], out: Path) -> int:
@@ -277,17 +276,13 @@ def output_folder(out: Path) -> Iterator[None]:
     with ExitStack() as held:
         try:
             out.mkdir(parents=True, exist_ok=True)
-            held.enter_context(writing_alone(out))
-            remove_leftovers(out, below=True, older=0.0)  # of a run that was killed
-            with tempfile.TemporaryFile(dir=out):
-                pass
-        except OSError as error:
-            raise OSError(
-                f"--out {out}: {error.strerror}; allowed: a folder that can be made and written to"
-            ) from None
-        except ValueError as error:  # a name that no folder can have
-            raise OSError(f"--out {str(out)!r}: {error}; allowed: a folder that can be made") from None
+            held.enter_context(writing_alone(out))  # which writes a file
+        except (OSError, ValueError) as error:  # a ValueError: a name that no folder can have
+            why = getattr(error, "strerror", None) or error
+            allowed = "a folder that can be made and written to"
+            raise OSError(f"--out {str(out)!r}: {why}; allowed: {allowed}") from None
         try:
+            remove_leftovers(out, below=True, older=0.0)  # of a run that was killed
             yield
         finally:
             remove_leftovers(out, below=True, older=0.0)  # of its own processes, which ended in mid-work

@@ -61,13 +61,6 @@ class Subject:
         law = self.given.contact.friction if self.given else None
         return float(getattr(law, "sliding_coefficient", paper_machine.SLIDING_COEFFICIENT))
 
-    @property
-    def is_slow(self) -> bool:
-        """Whether no formulation but the Exudyn one covers the motion with clearance in the pin."""
-        share = paper_machine.SIZES_MM[0] / paper_machine.BORE_RADIUS
-        size = share * self.bore_radius if self.given is None else 1e3 * self.given.contact.bearing.clearance
-        return self.with_clearance(size, self.friction).accuracy != paper_machine.ACCURACY
-
     def with_clearance(self, clearance_mm: float, sliding_coefficient: float) -> Scenario:
         """The run with this radial clearance in the pin, to the accuracy of studies."""
         return self._with(self.clearance_pin(clearance_mm, sliding_coefficient))

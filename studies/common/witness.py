@@ -6,8 +6,8 @@ agree in some numbers by chance, and friction of ideal joints, which follows the
 slower than the rest. So an error is
 
 - `SAFETY` times that estimate,
-- as a share of the largest number of the same case and unit, at least `ALIKE` times the middle one of them;
-  of an extreme, which is of a single time, that middle one itself,
+- at least `ALIKE` times the middle one of them among numbers of the same case and unit; of an extreme, which is
+  of a single time, that middle one itself,
 - at least `LEAST` of the number, a unit of its sixth digit.
 
 The witness shares data and laws with these runs, but neither equations nor integrator. It says whether the
@@ -22,7 +22,7 @@ from dataclasses import replace
 from statistics import median
 
 from studies.common.numbers import NUMBERS, Number
-from studies.common.options import Options
+from studies.common.options import WITNESSES, Options
 from studies.common.runs import run_with_errors
 from support_exudyn import Result, Scenario, SolverSettings
 from support_exudyn.formulations.registry import formulation
@@ -50,14 +50,16 @@ def run_and_measure(
     """
     results = run_with_errors({name: on_exudyn(case) for name, case in cases.items()}, chosen, HALVED)
     numbers = with_errors(measure(results))
-    solver = SolverSettings(tolerance=8.0 * TOLERANCE)
-    witnesses = {
-        name: replace(case, accuracy=None, formulation="compiled", solver=solver)
-        for name, case in cases.items()
+    settings = {
+        "accuracy": None,
+        "formulation": "compiled",
+        "solver": SolverSettings(tolerance=8.0 * TOLERANCE),
     }
+    witnesses = {name: replace(case, **settings) for name, case in cases.items()}
     if not all(formulation("compiled").covers(case) for case in witnesses.values()):
         return results, numbers
-    again = measure(run_with_errors(witnesses, replace(chosen, kept=chosen.witnesses), HALVED))
+    folder = chosen.kept and chosen.kept.with_name(WITNESSES)
+    again = measure(run_with_errors(witnesses, replace(chosen, kept=folder), HALVED))
     known = {(one.name, one.case): one.value for one in again}
     return results, [replace(one, witness=known.get((one.name, one.case))) for one in numbers]
 
@@ -86,19 +88,15 @@ def compiling() -> Iterator[None]:
 
 def with_errors(numbers: Sequence[Number]) -> list[Number]:
     """Numbers of Exudyn with the errors that the top of this module defines; closed forms stay without."""
-    sizes: dict[tuple[str, str], float] = {}
+    alike: dict[tuple[str, str], list[Number]] = {}
     for one in numbers:
-        sizes[one.case, one.unit] = max(abs(one.value), sizes.get((one.case, one.unit), 0.0))
-    shares: dict[tuple[str, str], list[float]] = {}
-    for one in numbers:
-        if one.numerical_error > 0.0 and (size := sizes[one.case, one.unit]) > 0.0:
-            shares.setdefault((one.case, one.unit), []).append(SAFETY * one.numerical_error / size)
+        alike.setdefault((one.case, one.unit), []).append(one)
 
     def error(one: Number) -> float:
-        place = one.case, one.unit
-        middle = median(shares[place]) * sizes[place] if place in shares else 0.0
-        alike = 1.0 if one.name.startswith(EXTREMES) else ALIKE
-        return max(SAFETY * one.numerical_error, alike * middle, LEAST * abs(one.value))
+        others = alike[one.case, one.unit]
+        errors = [SAFETY * other.numerical_error for other in others if other.numerical_error > 0.0]
+        share = 1.0 if one.name.startswith(EXTREMES) else ALIKE
+        return max(SAFETY * one.numerical_error, share * median(errors), LEAST * abs(one.value))
 
     return [replace(one, numerical_error=error(one)) if one.numerical_error > 0.0 else one for one in numbers]
 

@@ -24,6 +24,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 from studies.common import numbers
 from support_exudyn.files.whole_file import contents
 from support_exudyn.postprocessing.page.pieces import KeyNumber, Sheet
+from support_exudyn.postprocessing.shown_numbers import rounded
 from user_forces.values.value import InputError
 
 
@@ -45,7 +46,7 @@ def templates() -> Environment:
         lstrip_blocks=True,
     )
     surroundings.filters["fmt"] = format
-    tools = (numbers.said, numbers.against, numbers.percent, numbers.rounded, numbers.short, numbers.off)
+    tools = (numbers.said, numbers.against, numbers.percent, rounded, numbers.short, numbers.off)
     for tool in tools:
         surroundings.globals[tool.__name__] = surroundings.filters[tool.__name__] = tool
     return surroundings

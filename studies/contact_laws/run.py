@@ -6,14 +6,14 @@ the normal laws, with each friction law, and with several rest velocities, by wh
 is damped.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import ClassVar
 
 from matplotlib.figure import Figure
 
-from studies.common.numbers import Found, Measures, Number, by_case, cell, counted, measured_all
-from studies.common.rise import Watched
+from studies.common.numbers import Found, Measures, Number, by_case, cell, measured_all
+from studies.common.rise import Count, Watched
 from studies.common.runs import run_cases, run_with_errors
 from studies.common.study import Study
 from studies.common.words import text_table
@@ -65,15 +65,10 @@ def rise_numbers(watched: Watched, results: Mapping[str, Result]) -> list[Number
         PEAK: ("N", lambda run: float(run.largest_force[watched.pin])),
         "energy_dissipated": ("J", lambda run: run.dissipated),
         "energy_error": ("J", lambda run: run.energy_error),
+        "impacts": ("1", Count(lambda run: len(run.onsets[watched.pin]))),
+        "clamped_steps": ("1", Count(lambda run: run.counts.clamped_steps)),
     }
-    counts: dict[str, Callable[[Result], int]] = {
-        "impacts": lambda run: len(run.onsets[watched.pin]),
-        "clamped_steps": lambda run: run.counts.clamped_steps,
-    }
-    counted_ones = [
-        counted(name, case, run, count) for case, run in results.items() for name, count in counts.items()
-    ]
-    return measured_all(results, measures) + counted_ones
+    return measured_all(results, measures)
 
 
 class ContactLaws(Study):

@@ -8,19 +8,18 @@ bounces would decide about a tenth of the peak. It ends when the first swings ar
 
 import itertools
 import math
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property, partial
 from typing import Literal
 
 import numpy as np
 
 from studies.common import paper_machine, rise
-from studies.common.numbers import Measures
+from studies.common.numbers import Measured, Measures
 from studies.common.paper_machine import CLEARANCE_MM, CONTACT_TITLES, CYLINDERS, PAPER
 from studies.common.rise import DEGREES, Crest
-from studies.common.subject import Subject
-from support_exudyn import ClearancePin, CubicStep, Line, Result, Scenario, UniformSpeed
+from studies.common.study import Study
+from support_exudyn import CubicStep, Line, Result, Scenario, UniformSpeed
 from support_exudyn.mechanics.channels import ALL_CHANNELS
 from support_exudyn.model.drives.coupled_drive import CoupledDrive
 from support_exudyn.model.drives.drive import Stroke
@@ -57,11 +56,10 @@ def case_name(mode: str, pin: str, columns: str) -> str:
     return f"{mode}, {pin}, {columns} columns"
 
 
-@dataclass(frozen=True)
-class ModePlan:
-    """The cases of a machine: its motion in both modes, with the stroke and the times of its own drive."""
+class ModeCases(Study):
+    """The motion of a machine in both modes, with the stroke and the times of its own drive."""
 
-    subject: Subject
+    own_machine = has_witness = True
 
     @property
     def pins(self) -> tuple[str, str]:
@@ -104,19 +102,24 @@ class ModePlan:
         assert isinstance(own, Stroke)
         return MODES[mode](stroke=own.stroke, start=own.start, end=own.end)
 
+    def cases(self) -> dict[str, Scenario]:
+        """All rises, and the starts by assumptions."""
+        return {**self.rises, **self.starts}
+
     @cached_property
-    def scenarios(self) -> Mapping[str, Scenario]:
+    def rises(self) -> dict[str, Scenario]:
         """Both modes, both pins, all kinds of actuators; the longest first."""
         every = itertools.product(reversed(self.columns), reversed(self.pins), MODES)
-        return {case_name(mode, pin, columns): self._run(mode, pin, columns) for columns, pin, mode in every}
+        return {case_name(mode, pin, columns): self._rise(mode, pin, columns) for columns, pin, mode in every}
 
-    def _run(self, mode: str, pin: str, columns: str) -> Scenario:
+    def _rise(self, mode: str, pin: str, columns: str) -> Scenario:
         subject, watched, friction = self.subject, self.subject.watched, self.subject.friction
-        loose = subject.with_clearance(subject.clearance_mm, friction)
-        base = subject.ideal(friction) if pin == self.pins[0] else loose
         drives = {name: self.drive(mode, name) for name in self.leading}
         first, *others = drives.values()
         alike = all(one == first for one in others)
+        base = subject.ideal(friction)
+        if pin != self.pins[0]:
+            base = subject.with_clearance(subject.clearance_mm, friction)
         base = replace(
             base,
             duration=round(watched.end + AFTER * (watched.end - watched.start), 9),
@@ -137,39 +140,38 @@ class ModePlan:
         """The starts of mode 1 by pin and oil; of the paper's machine only."""
         found: dict[str, Scenario] = {}
         for pin, oil in itertools.product(START_PINS, OIL) if self.subject.is_paper else ():
-            is_ideal = pin == PINS[0]
-            base = self.scenarios[case_name("mode 1", PINS[0 if is_ideal else 1], "oil")]
+            pins = {}
+            if pin != PINS[0]:
+                law, friction = paper_machine.PAPERS_LAW, self.subject.friction
+                loose = paper_machine.clearance_joint(CLEARANCE_MM, friction, contact=pin, law=law)
+                pins = {paper_machine.CLEARANCE_PIN: loose}
+            base = self.rises[case_name("mode 1", PINS[1 if pins else 0], "oil")]
             assert isinstance(base.drive, UniformSpeed)
             modulus, hoses = OIL[oil]
-            columns = {
-                name: replace(column, bulk_modulus=modulus, line=hoses)
-                for name, column in paper_machine.oil_columns().items()
-            }
             found[start_name(pin, oil)] = replace(
                 base,
                 drive=replace(base.drive, start=INLET, end=INLET + base.drive.end - base.drive.start),
                 duration=INLET + SWINGS,
                 start="settled",
-                actuators=columns,
-                pins=base.pins if is_ideal else {paper_machine.CLEARANCE_PIN: self._pin(pin)},
+                actuators={
+                    name: replace(column, bulk_modulus=modulus, line=hoses)
+                    for name, column in paper_machine.oil_columns().items()
+                },
+                pins=pins or base.pins,
                 channels=(rise.FORCE,),
             )
         return found
 
-    def _pin(self, contact: str) -> ClearancePin:
-        law = paper_machine.PAPERS_LAW
-        return paper_machine.clearance_joint(CLEARANCE_MM, self.subject.friction, contact=contact, law=law)
-
-    def measures(self, result: Result) -> Measures:
+    def measures(self, run: Result) -> Measures:
         """Unit and measure of every number of a case that has a limit, by name.
 
         Where there is an impulse, it stands in place of what squares or extremes make endless.
         """
-        if result.scenario.duration == INLET + SWINGS:
+        if run.scenario.duration == INLET + SWINGS:
             return {PEAK: ("kN", Crest(rise.FORCE, 1e-3, INLET, INLET + SWINGS))}
         watched = self.subject.watched
         force, begin = watched.force, watched.start  # from the very start on, which is where mode 1 strikes
-        found: dict[str, tuple[str, rise.Measure]] = {
+        found: dict[str, tuple[str, Measured]] = {
             "mean_pin_force": ("N", watched.mean_of(force)),
             "std_pin_force": ("N", watched.spread_of(force)),
             "rms_pin_force": ("N", watched.fluctuation_of(force, 1.0, begin)),
@@ -178,28 +180,23 @@ class ModePlan:
             "largest_angular_acceleration": ("deg/s^2", watched.peak(watched.acceleration, DEGREES)),
             "std_angular_acceleration": ("deg/s^2", watched.spread_of(watched.acceleration, DEGREES)),
             "rms_angular_velocity": ("deg/s", watched.fluctuation_of(watched.speed, DEGREES, begin)),
-            # of what actuators carry: largest is of the magnitude; a push is positive, a pull negative
-            **{
-                f"{extreme}_{name}_force": ("N", replace(watched.peak(f"{name}.force"), extreme=extreme))
-                for name in self.actuators
-                for extreme in EXTREMES
-            },
         }
-        endless = {name: [f"{one}_{name}_force" for one in EXTREMES] for name in self.actuators}
-        endless["pin"] = [START, STOP, "std_pin_force", "rms_pin_force"]  # its impulse is a magnitude
-
-        channels = {what: force if what == "pin" else f"{what}.force" for what in endless}
-        struck = [
-            what for what, channel in channels.items() if len(impulses_of(result, channel, 0.0, math.inf)) == 2
-        ]
+        endless: dict[str, tuple[str, tuple[str, ...]]] = {
+            "pin": (force, (START, STOP, "std_pin_force", "rms_pin_force"))  # a magnitude
+        }
+        for name in self.actuators:  # largest is of the magnitude; a push is positive, a pull negative
+            channel = f"{name}.force"
+            peaks = {f"{one}_{name}_force": replace(watched.peak(channel), extreme=one) for one in EXTREMES}
+            found |= {peak: ("N", measure) for peak, measure in peaks.items()}
+            endless[name] = channel, tuple(peaks)
         for place, end in enumerate(("start", "end")):
-            for what in struck:
-                found[f"impulse_{what}_{end}"] = ("N s", partial(_impulse, channels[what], place))
-        gone = {name for what in struck for name in endless[what]}
-        if result.impulses:
-            gone |= {"largest_angular_acceleration", "std_angular_acceleration"}
-        found = {name: about for name, about in found.items() if name not in gone}
-        return found | (ON_CYLINDERS if result.scenario.valved else {})
+            for what, (channel, gone) in endless.items():
+                if len(impulses_of(run, channel, 0.0, math.inf)) == 2:
+                    found[f"impulse_{what}_{end}"] = ("N s", partial(_impulse, channel, place))
+                    found = {name: about for name, about in found.items() if name not in gone}
+        if run.impulses:
+            del found["largest_angular_acceleration"], found["std_angular_acceleration"]
+        return found | (ON_CYLINDERS if run.scenario.valved else {})
 
 
 def _impulse(channel: str, place: int, run: Result) -> float:
@@ -220,8 +217,7 @@ def extension(result: Result, column: str) -> rise.Series:
 
 def speed(column: str, begin: float, end: float, result: Result) -> float:
     """The mean speed of a column's extension between two times [s], in mm/s."""
-    moved = np.interp([begin, end], result.time, extension(result, column))
-    return float(1e3 * (moved[1] - moved[0]) / (end - begin))
+    return (extension_at(column, end, result) - extension_at(column, begin, result)) / (end - begin)
 
 
 def extension_at(column: str, time: float, result: Result) -> float:
@@ -229,14 +225,17 @@ def extension_at(column: str, time: float, result: Result) -> float:
     return float(1e3 * np.interp(time, result.time, extension(result, column)))
 
 
-def _of_column(column: str) -> dict[str, tuple[str, rise.Measure]]:
+def _of_column(column: str) -> dict[str, tuple[str, Measured]]:
     side, pressure = column.partition("_")[0], f"{column}.pressure"
     whole = partial(Crest, pressure, 1e-6, end=math.inf)
 
-    def late(quantity: Callable[[Result], rise.Series]) -> rise.Measure:
-        return lambda run: rise.mean(run.time[run.time >= LATE - 1e-9], quantity(run)[run.time >= LATE - 1e-9])
+    def late(run: Result, values: rise.Series) -> float:
+        inside = run.time >= LATE - 1e-9
+        return rise.mean(run.time[inside], values[inside])
 
-    settled = late(lambda run: 1e3 * extension(run, column))
+    def settled(run: Result) -> float:
+        return late(run, 1e3 * extension(run, column))
+
     return {
         f"speed_in_mid_rise_{side}": ("mm/s", partial(speed, column, *MIDDLE)),
         f"extension_at_5s_{side}": ("mm", partial(extension_at, column, rise.END)),
@@ -244,12 +243,12 @@ def _of_column(column: str) -> dict[str, tuple[str, rise.Measure]]:
         f"overshoot_{side}": ("mm", lambda run: float(1e3 * extension(run, column).max()) - settled(run)),
         f"largest_pressure_{side}": ("MPa", whole(extreme="max")),
         f"least_pressure_{side}": ("MPa", whole(extreme="min")),
-        f"pressure_after_{side}": ("MPa", late(lambda run: 1e-6 * run[pressure])),
+        f"pressure_after_{side}": ("MPa", lambda run: late(run, 1e-6 * run[pressure])),
         f"largest_flow_{side}": ("l/min", Crest(f"{column}.flow", 6e4, begin=0.0, end=math.inf)),
     }
 
 
-ON_CYLINDERS: dict[str, tuple[str, rise.Measure]] = {
+ON_CYLINDERS: dict[str, tuple[str, Measured]] = {
     **_of_column("front_column"),
     **_of_column("rear_column"),
     "loss_in_valves": ("kJ", lambda run: float(1e-3 * run["energy.damping_loss"][-1])),

@@ -6,19 +6,17 @@ usual station gives 450 l/min, shared by all; a station without a limit makes th
 
 import itertools
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import partial
 
-import numpy as np
 from matplotlib.figure import Figure
 
 from studies.common import paper_machine, rise
-from studies.common.numbers import Found, Measures, cell
+from studies.common.numbers import Measured, Measures, cell
 from studies.common.panels import finish, grid
 from studies.common.paper_machine import CLEARANCE_MM
 from studies.common.study import Study
-from studies.common.subject import paper_subject
 from studies.common.words import text_table
 from studies.drive_mode.cases import extension, extension_at, speed
 from support_exudyn import (
@@ -47,13 +45,9 @@ PUMPS = ("450 l/min", "no limit")
 OILS = ("boils", "pulls")
 PINS = ("ideal pin", f"{CLEARANCE_MM} mm")
 ROWS = ("front", "rear")
-COLUMNS = [(mode, oil) for mode in MODES for oil in OILS]  # of tables
 FIRST = SolverSettings(tolerance=1e-5)  # of the first of three runs, each finer than the one before
 CHANNELS = ("front_column.*", "rear_column.*", "pin.rear_base.force", "energy.*")
 MIDDLE = (0.3, 0.7)  # of the time that the valve is open
-
-
-# --- cases ---
 
 
 def case_name(mode: str, pump: str, pin: str, oil: str = "boils") -> str:
@@ -61,65 +55,82 @@ def case_name(mode: str, pump: str, pin: str, oil: str = "boils") -> str:
     return f"{mode}, {pump}, {pin}" + (", oil pulls" if oil == "pulls" else "")
 
 
-def scenarios() -> Mapping[str, Scenario]:
-    """All cases, the longest first."""
-    every = itertools.product(PUMPS, reversed(PINS), OILS, MODES)
-    return {case_name(mode, pump, pin, oil): _run(mode, pump, pin, oil) for pump, pin, oil, mode in every}
+class ValveModes(Study):
+    """What do the paper's drive modes become if valves and a pump make them?"""
 
+    name, seconds, sentences = "valve_modes", 40.0, "valves.md.j2"
 
-def _run(mode: str, pump: str, pin: str, oil: str) -> Scenario:
-    paper, limited = paper_subject(), pump == PUMPS[0]
-    ideal = pin == PINS[0]
-    base = paper.ideal(paper.friction) if ideal else paper.with_clearance(CLEARANCE_MM, paper.friction)
-    end = LONG if limited else SHORT
-    inlet: Inlet = RampedOpening(start=START, end=end, ramp=paper_machine.RAMP)
-    if mode == "mode 1":
-        inlet = SuddenOpening(start=START, end=end, extent=paper_machine.SUDDEN_OPENING)
-    vapour = VAPOUR if oil == "boils" else None
-    columns = {
-        name: replace(column, check_valve=CHECK, yield_valve=YIELD, vapour_pressure=vapour)
-        for name, column in paper_machine.hydraulic_cylinders(inlet).items()
-    }
-    return replace(
-        paper_machine.on_cylinders(base, inlet),
-        actuators=columns,
-        pump=PUMP if limited else None,
-        duration=end + AFTER,
-        record_period=PERIOD,
-        accuracy=None,
-        formulation="compiled",
-        solver=FIRST,
-        channels=(*CHANNELS, "pump.*") if limited else CHANNELS,
-    )
+    def cases(self) -> dict[str, Scenario]:
+        """Both modes on both pumps, with both pins, and with oil that pulls; the longest first."""
+        paper, found = self.subject, {}
+        for pump, pin, oil, mode in itertools.product(PUMPS, reversed(PINS), OILS, MODES):
+            base = paper.ideal(paper.friction)
+            if pin != PINS[0]:
+                base = paper.with_clearance(CLEARANCE_MM, paper.friction)
+            limited = pump == PUMPS[0]
+            end = LONG if limited else SHORT
+            inlet: Inlet = RampedOpening(start=START, end=end, ramp=paper_machine.RAMP)
+            if mode == "mode 1":
+                inlet = SuddenOpening(start=START, end=end, extent=paper_machine.SUDDEN_OPENING)
+            vapour = VAPOUR if oil == "boils" else None
+            columns = {
+                name: replace(column, check_valve=CHECK, yield_valve=YIELD, vapour_pressure=vapour)
+                for name, column in paper_machine.hydraulic_cylinders(inlet).items()
+            }
+            found[case_name(mode, pump, pin, oil)] = replace(
+                paper_machine.on_cylinders(base, inlet),
+                actuators=columns,
+                pump=PUMP if limited else None,
+                duration=end + AFTER,
+                record_period=PERIOD,
+                accuracy=None,
+                formulation="compiled",
+                solver=FIRST,
+                channels=(*CHANNELS, "pump.*") if limited else CHANNELS,
+            )
+        return found
 
-
-# --- measures ---
-
-
-def measures(result: Result) -> Measures:
-    """Unit and measure of every number of a case, by name."""
-    closes = max(result.scenario.breaks)
-    begin, end = (START + share * (closes - START) for share in MIDDLE)
-    whole = partial(rise.Crest, begin=0.0, end=math.inf)
-    found: dict[str, tuple[str, rise.Measure]] = {
-        "largest_pin_force_at_start": ("kN", rise.Crest(rise.FORCE, 1e-3, START, START + 1.0)),
-        "largest_pin_force_at_end": ("kN", rise.Crest(rise.FORCE, 1e-3, closes, math.inf)),
-    }
-    boils = result.scenario.legs["front_column"].vapour_pressure is not None
-    for row in ROWS:
-        column, pressure = f"{row}_column", f"{row}_column.pressure"
-        found[f"least_pressure_{row}"] = ("MPa", whole(pressure, 1e-6, extreme="min"))
-        found[f"largest_pressure_{row}"] = ("MPa", whole(pressure, 1e-6, extreme="max"))
-        found[f"least_force_{row}"] = ("kN", whole(f"{column}.force", 1e-3, extreme="min"))
-        found[f"speed_in_mid_rise_{row}"] = ("mm/s", partial(speed, column, begin, end))
-        found[f"extension_at_end_{row}"] = ("mm", partial(extension_at, column, closes))
+    def measures(self, run: Result) -> Measures:
+        closes = max(run.scenario.breaks)
+        begin, end = (START + share * (closes - START) for share in MIDDLE)
+        whole = partial(rise.Crest, begin=0.0, end=math.inf)
+        found: dict[str, tuple[str, Measured]] = {
+            "largest_pin_force_at_start": ("kN", rise.Crest(rise.FORCE, 1e-3, START, START + 1.0)),
+            "largest_pin_force_at_end": ("kN", rise.Crest(rise.FORCE, 1e-3, closes, math.inf)),
+        }
+        boils = run.scenario.legs["front_column"].vapour_pressure is not None
+        for row in ROWS:
+            column, pressure = f"{row}_column", f"{row}_column.pressure"
+            found[f"least_pressure_{row}"] = ("MPa", whole(pressure, 1e-6, extreme="min"))
+            found[f"largest_pressure_{row}"] = ("MPa", whole(pressure, 1e-6, extreme="max"))
+            found[f"least_force_{row}"] = ("kN", whole(f"{column}.force", 1e-3, extreme="min"))
+            found[f"speed_in_mid_rise_{row}"] = ("mm/s", partial(speed, column, begin, end))
+            found[f"extension_at_end_{row}"] = ("mm", partial(extension_at, column, closes))
+            if boils:
+                found[f"largest_cavity_{row}"] = ("ml", whole(f"{column}.cavity", 1e6, extreme="max"))
         if boils:
-            found[f"largest_cavity_{row}"] = ("ml", whole(f"{column}.cavity", 1e6, extreme="max"))
-    if boils:
-        found["time_with_cavity"] = ("ms", time_with_cavity)
-    if result.scenario.pump is not None:
-        found["least_pump_pressure"] = ("MPa", whole("pump.pressure", 1e-6, extreme="min"))
-    return found
+            found["time_with_cavity"] = ("ms", time_with_cavity)
+        if run.scenario.pump is not None:
+            found["least_pump_pressure"] = ("MPa", whole("pump.pressure", 1e-6, extreme="min"))
+        return found
+
+    def figures(self) -> dict[str, Figure]:
+        return {"rise_by_valves": rise_figure(self.runs), "opening": start_figure(self.runs)}
+
+    def tables(self) -> dict[str, Sheet]:
+        """The pin's largest force, by pump, pin, mode and oil."""
+        columns, rows = [(mode, oil) for mode in MODES for oil in OILS], []
+        for when, pump, pin in itertools.product(("start", "end"), PUMPS, PINS):
+            numbers = (
+                self.found[f"largest_pin_force_at_{when}", case_name(mode, pump, pin, oil)]
+                for mode, oil in columns
+            )
+            rows.append((f"at the {when}, {pump}, {pin}", *map(cell, numbers)))
+        header = ("largest pin force", *(f"{mode}, oil {oil}" for mode, oil in columns))
+        return {"table_pin": text_table(header, rows)}
+
+    def words(self) -> dict[str, object]:
+        return {"case_name": case_name, "pumps": PUMPS, "pins": PINS}
 
 
 def time_with_cavity(result: Result) -> float:
@@ -137,18 +148,7 @@ def time_with_cavity(result: Result) -> float:
     )
 
 
-# --- tables and figures ---
-
-
-def pin_table(found: Found) -> Sheet:
-    """The pin's largest force, by pump, pin, mode and oil."""
-    rows = []
-    for when, pump, pin in itertools.product(("start", "end"), PUMPS, PINS):
-        name = f"largest_pin_force_at_{when}"
-        cells = (cell(found[name, case_name(mode, pump, pin, oil)]) for mode, oil in COLUMNS)
-        rows.append((f"at the {when}, {pump}, {pin}", *cells))
-    return text_table(("largest pin force", *(f"{mode}, oil {oil}" for mode, oil in COLUMNS)), rows)
-
+# --- figures ---
 
 COLOURS = dict(zip(ROWS, (style.SMOOTH, style.WITH_CLEARANCE), strict=True))
 DASHES = (0, (4, 2))
@@ -167,7 +167,8 @@ def rise_figure(results: Mapping[str, Result]) -> Figure:
         lower.plot(run.time, 1e-6 * run["pump.pressure"], color=style.IDEAL, lw=0.9)
         upper.set_title(mode, fontsize=9)
         lower.set(xlabel="time [s]", xlim=(START - 0.5, LONG + 1.0))
-    _label(panels, ("extension [mm]", "pump [MPa]"))
+    panels[0, 0].set_ylabel("extension [mm]")
+    panels[1, 0].set_ylabel("pump [MPa]")
     return finish(drawing, panels, 2)
 
 
@@ -188,36 +189,6 @@ def start_figure(results: Mapping[str, Result]) -> Figure:
         pressures.axhline(0.0, color="0.6", lw=0.6, zorder=0)
         pressures.set_title(mode, fontsize=9)
         forces.set_xlabel("time since the valve opens [ms]")
-    _label(panels, ("pressure [MPa]", "cavity [ml]", "pin force [kN]"))
-    return finish(drawing, panels, 2)
-
-
-def _label(panels: np.ndarray, labels: Sequence[str]) -> None:
-    for axes, label in zip(panels[:, 0], labels, strict=True):
+    for axes, label in zip(panels[:, 0], ("pressure [MPa]", "cavity [ml]", "pin force [kN]"), strict=True):
         axes.set_ylabel(label)
-
-
-class ValveModes(Study):
-    """What do the paper's drive modes become if valves and a pump make them?"""
-
-    name, seconds, sentences = "valve_modes", 40.0, "valves.md.j2"
-
-    def cases(self) -> Mapping[str, Scenario]:
-        """Both modes on both pumps, with both pins, and with oil that pulls."""
-        return scenarios()
-
-    def measures(self, run: Result) -> Measures:
-        """Forces, pressures, speeds, cavities."""
-        return measures(run)
-
-    def figures(self) -> dict[str, Figure]:
-        """The rise, and its first instants."""
-        return {"rise_by_valves": rise_figure(self.runs), "opening": start_figure(self.runs)}
-
-    def tables(self) -> dict[str, Sheet]:
-        """The pin's largest force."""
-        return {"table_pin": pin_table(self.found)}
-
-    def words(self) -> dict[str, object]:
-        """Names of cases."""
-        return {"case_name": case_name, "pumps": PUMPS, "pins": PINS}
+    return finish(drawing, panels, 2)

@@ -10,7 +10,6 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator
 
 from studies.common import rise
-from studies.common.numbers import rounded
 from studies.common.panels import finish, grid, letters
 from studies.common.words import text_table
 from studies.scene_detail.measures import (
@@ -32,6 +31,7 @@ from studies.scene_detail.scenes import (
 from support_exudyn import Result, recommend
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.page.pieces import Sheet
+from support_exudyn.postprocessing.shown_numbers import rounded
 from support_exudyn.simulation.evidence.table import EvidenceTable as Tried
 from support_exudyn.simulation.recommend import QUESTIONS
 

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from studies.common import rise
-from studies.common.numbers import Number, measured
+from studies.common.numbers import Number, with_error
 from studies.common.runs import bar, halvings, impacts, with_coarser
 from studies.scene_detail.scenes import FULLEST, REAR, DetailScene
 from support_exudyn import Estimate, Failure, Result, Scenario, SimulationError, simulate
@@ -77,9 +77,9 @@ class MeasuredScene:
 
 def estimate(run: Result, unit: str, get: Get) -> Estimate:
     """A number of a run with its error, that of steps and of records, which is no less than rounding."""
-    found = measured("", "", unit, run, get)
-    rounding = SMALLEST[unit] if unit == "m" else max(SMALLEST[unit], ROUNDING * abs(found.value))
-    return Estimate(found.value, max(found.numerical_error, rounding), unit)
+    value, error = with_error(get, run)
+    rounding = SMALLEST[unit] if unit == "m" else max(SMALLEST[unit], ROUNDING * abs(value))
+    return Estimate(value, max(error, rounding), unit)
 
 
 def measure(

@@ -8,17 +8,17 @@ within it and beyond it, and what links and legs carry.
 from __future__ import annotations
 
 import sys
-from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import product
 
 import numpy as np
 from matplotlib.figure import Figure
 
-from studies.common.numbers import Found, Number, cell, measured
+from studies.common.numbers import Number, cell, measured_all
 from studies.common.panels import finish, grid
-from studies.common.rise import MeasuredRun, Series, between
-from studies.common.runs import run_cases
+from studies.common.rise import Series, between
+from studies.common.runs import run_with_errors
 from studies.common.study import Study
 from studies.common.support_legs import PAIRS, legs_data, loose_pins, support, tight_pins
 from studies.common.words import text_table
@@ -121,11 +121,6 @@ CASES = (
 )
 
 
-def usual(machine: str, clearance_mm: float) -> str:
-    """The name of the case of a machine under the middle roof load, with friction."""
-    return PushedSupport(machine, clearance_mm, MIDDLE, FRICTION).name
-
-
 # --- measures ---
 
 OUTER = 0.7  # share of the push from which on a branch is fitted by a straight line
@@ -142,7 +137,7 @@ class Loop:
         run: its records.
     """
 
-    def __init__(self, case: PushedSupport, run: MeasuredRun) -> None:
+    def __init__(self, case: PushedSupport, run: Result) -> None:
         self.case = case
         inside = between(run, case.time(1), case.time(5))
         self.force: Series = run["push.force_x"][inside]
@@ -191,40 +186,18 @@ MEASURES = {  # units
 OF_IDEAL = ("whole", "leg_share")  # what a support without slack has
 
 
-Ran = Mapping[str, tuple[PushedSupport, Result]]
-Shares = Mapping[tuple[str, float], Mapping[str, float]]  # of the push, by machine and roof load
-
-
 def pin_shares(case: PushedSupport, run: Result) -> dict[str, float]:
-    """Change of the force of each pin over that of the push, from turn to turn, all pins ideal."""
+    """Change of the force of each pin over that of the push, from turn to turn, all pins ideal.
+
+    By virtual work slack is twice their sum times the clearance: each journal goes from one side of its bore to
+    the other along its force.
+    """
     front, rear = (int(np.argmin(np.abs(run.time - case.time(n)))) for n in (1, 3))
     shares = {}
     for pin in PINS:
         along, up = (run[f"pin.{pin}.force_{axis}"] for axis in "xy")
         shares[pin] = float(np.hypot(along[front] - along[rear], up[front] - up[rear]) / (2.0 * case.push))
     return shares
-
-
-def kinematic_slack(case: PushedSupport, shares: Mapping[str, float]) -> float:
-    """Slack [m] by virtual work: each journal goes from one side of its bore to the other along its force.
-
-    s = 2 c sum f,   f: force of a pin over the push
-    """
-    return 2e-3 * case.clearance_mm * sum(shares.values())
-
-
-def numbers(ran: Ran) -> list[Number]:
-    """All numbers of the loops."""
-
-    def measure(case: PushedSupport, run: Result, name: str) -> Number:
-        return measured(name, case.name, MEASURES[name], run, lambda finer: Loop(case, finer).measures()[name])
-
-    return [
-        measure(case, run, name)
-        for case, run in ran.values()
-        for name in MEASURES
-        if case.clearance_mm or name in OF_IDEAL
-    ]
 
 
 def participation(slack: float, displacement: float) -> float:
@@ -235,90 +208,9 @@ def participation(slack: float, displacement: float) -> float:
     return max(0.0, 1.0 - slack / (2.0 * displacement))
 
 
-# --- tables ---
-
-
-def key_table(found: Found, shares: Shares) -> Sheet:
-    """Slack and stiffness of every support under the middle roof load."""
-    rows = []
-    for machine in MACHINES:
-        for size in CLEARANCES_MM[1:]:
-            names = ("slack", "within", "beyond", "whole")
-            slack, *stiffness = (cell(found[name, usual(machine, size)]) for name in names)
-            rows.append((machine, f"{size:g}", slack, f"{factor(shares, machine) * size:.2f}", *stiffness))
-    header = (
-        "support", "clearance [mm]", "slack [mm]", "by virtual work [mm]", "within [kN/mm]", "beyond [kN/mm]",
-        "turn to turn [kN/mm]",
-    )  # fmt: skip
-    return text_table(header, rows, left=1)
-
-
-def participation_table(found: Found) -> Sheet:
-    """What is left of the linkage's stiffness, by clearance and by how far the roof moves."""
-    rows = []
-    for size in CLEARANCES_MM[1:]:
-        slack = found["slack", usual(MACHINES[0], size)]
-        left = [100.0 * participation(slack.value, one) for one in ROOF_MOVES_MM]
-        rows.append((f"{size:g}", cell(slack), *(f"{one:.0f} %" for one in left)))
-    header = ("clearance [mm]", "slack [mm]", *(f"roof moves ± {one:g} mm" for one in ROOF_MOVES_MM))
-    return text_table(header, rows)
-
-
-def pin_table(shares: Shares) -> Sheet:
-    """Force of each pin over the push, with ideal pins."""
-    rows = [
-        (machine, *(f"{one:.3f}" for one in shares[machine, MIDDLE].values()), f"{factor(shares, machine):.2f}")
-        for machine in MACHINES
-    ]
-    pins = (name.replace("_", " ") for name in shares[MACHINES[0], MIDDLE])
-    return text_table(("support", *pins, "slack over clearance"), rows)
-
-
-def factor(shares: Shares, machine: str) -> float:
-    """Slack over the radial clearance, by virtual work."""
-    return 2.0 * sum(shares[machine, MIDDLE].values())
-
-
-# --- figures ---
+# --- the study ---
 
 DRAWN_MM = (0.0, 0.5, 1.0, 2.0)  # clearances whose loops are drawn
-
-
-def loop_figure(ran: Ran) -> Figure:
-    """Push over displacement of the canopy, a panel for each machine, under the middle roof load."""
-    drawing, panels = grid(85, 1, 2)
-    for axes, machine in zip(panels.flat, MACHINES, strict=True):
-        for (colour, dashes), size in zip(reversed(style.CURVES[:4]), DRAWN_MM, strict=True):
-            loop = Loop(*ran[usual(machine, size)])
-            label = f"{size:g} mm" if size else "ideal pins"
-            axes.plot(1e3 * loop.shift, 1e-3 * loop.force, color=colour, ls=dashes, label=label)
-        axes.set(xlabel="displacement of the canopy [mm]", ylabel="horizontal force [kN]", title=machine)
-    return finish(drawing, panels, 4)
-
-
-def slack_figure(found: Found, shares: Shares) -> Figure:
-    """Slack over clearance with the line of virtual work (a), and stiffness from turn to turn (b)."""
-    drawing, panels = grid(85, 1, 2)
-    slack, whole = panels.flat
-    markers = dict(zip(ROOF_SHARES, ("o", "s", "^"), strict=True))
-    sizes, ends = CLEARANCES_MM[1:], np.array([0.0, CLEARANCES_MM[-1]])
-    for machine, (colour, dashes) in zip(MACHINES, style.CURVES, strict=False):
-        slack.plot(ends, factor(shares, machine) * ends, color=colour, ls=dashes, lw=0.8)
-        slack.plot([], [], color=colour, ls=dashes, label=machine)
-        for share, marker in markers.items():
-            for axes, measure, line in ((slack, "slack", "none"), (whole, "whole", dashes)):
-                names = [PushedSupport(machine, size, share, FRICTION).name for size in sizes]
-                values = [found[measure, name].value for name in names]
-                axes.plot(sizes, values, marker, color=colour, ls=line, mfc="none", ms=4.5, lw=0.8)
-    for share, marker in markers.items():
-        slack.plot([], [], marker, color="black", mfc="none", label=f"roof load {100 * share:g} % of rated")
-    for axes, label in ((slack, "slack of the canopy [mm]"), (whole, "stiffness from turn to turn [kN/mm]")):
-        axes.set(xlabel="radial clearance of all pins [mm]", ylabel=label)
-    whole.set_ylim(0, None)
-    return finish(drawing, panels, 3)
-
-
-# --- the study ---
 
 
 class SlackStiffness(Study):
@@ -326,54 +218,108 @@ class SlackStiffness(Study):
 
     name, seconds = "slack_stiffness", 400.0
 
+    def cases(self) -> dict[str, Scenario]:
+        return {case.name: case.scenario() for case in CASES}
+
+    @cached_property
+    def shares(self) -> dict[tuple[str, float], dict[str, float]]:
+        """Force of each ideal pin over the push, by machine and roof load."""
+        cases = {how: PushedSupport(how[0], 0.0, how[1], 0.0) for how in UNDER_ROOF}
+        return {how: pin_shares(case, self.runs[case.name]) for how, case in cases.items()}
+
+    def factor(self, machine: str, share: float = MIDDLE) -> float:
+        """Slack over the radial clearance, by virtual work."""
+        return 2.0 * sum(self.shares[machine, share].values())
+
     def work(self) -> None:
-        """All loops."""
-        self.runs = run_cases({case.name: case.scenario() for case in CASES}, self.chosen)
-        self.ran = {case.name: (case, self.runs[case.name]) for case in CASES}
-        self.shares = {
-            (machine, share): pin_shares(*self.ran[PushedSupport(machine, 0.0, share, 0.0).name])
-            for machine, share in UNDER_ROOF
-        }
-        self.numbers = numbers(self.ran) + [
-            Number("slack_over_clearance", one, factor(self.shares, one), "1", 0.0) for one in MACHINES
-        ]
+        """All loops, and what follows by virtual work from ideal pins."""
+        self.runs = run_with_errors(self.cases(), self.chosen)
+        self.numbers = []
+        for case in CASES:
+            names = [name for name in MEASURES if case.clearance_mm or name in OF_IDEAL]
+            measures = {
+                name: (MEASURES[name], lambda run, case=case, name=name: Loop(case, run).measures()[name])
+                for name in names
+            }
+            self.numbers += measured_all({case.name: self.runs[case.name]}, measures)
+        factors = {machine: self.factor(machine) for machine in MACHINES}
+        self.numbers += [Number("slack_over_clearance", name, one, "1", 0.0) for name, one in factors.items()]
+
+    def of(self, name: str, machine: str, size: float, share: float = MIDDLE, mu: float = FRICTION) -> Number:
+        """A number by machine, clearance [mm], roof load and friction."""
+        return self.found[name, PushedSupport(machine, size, share, mu).name]
 
     def saved(self) -> dict[str, Result]:
-        """Two loops of the reference support."""
-        return {name: self.runs[name] for name in (usual(MACHINES[0], size) for size in (0.0, 1.0))}
-
-    def figures(self) -> dict[str, Figure]:
-        """All figures."""
-        return {"loops": loop_figure(self.ran), "slack_and_stiffness": slack_figure(self.found, self.shares)}
+        names = (PushedSupport(MACHINES[0], size, MIDDLE, FRICTION).name for size in (0.0, 1.0))
+        return {name: self.runs[name] for name in names}
 
     def tables(self) -> dict[str, Sheet]:
-        """All tables."""
+        """Slack and stiffness under the middle roof load; what is left of the stiffness; forces of pins."""
+        slack, left, sizes = [], [], CLEARANCES_MM[1:]
+        for machine, size in product(MACHINES, sizes):
+            names = ("slack", "within", "beyond", "whole")
+            first, *stiffness = (cell(self.of(name, machine, size)) for name in names)
+            slack.append((machine, f"{size:g}", first, f"{self.factor(machine) * size:.2f}", *stiffness))
+        for size in sizes:
+            number = self.of("slack", MACHINES[0], size)
+            shares = (100.0 * participation(number.value, one) for one in ROOF_MOVES_MM)
+            left.append((f"{size:g}", cell(number), *(f"{one:.0f} %" for one in shares)))
+        of_pins = []
+        for machine in MACHINES:
+            shown = (f"{one:.3f}" for one in self.shares[machine, MIDDLE].values())
+            of_pins.append((machine, *shown, f"{self.factor(machine):.2f}"))
+        header = (
+            "support", "clearance [mm]", "slack [mm]", "by virtual work [mm]", "within [kN/mm]",
+            "beyond [kN/mm]", "turn to turn [kN/mm]",
+        )  # fmt: skip
+        moves = (f"roof moves ± {one:g} mm" for one in ROOF_MOVES_MM)
+        pins = (name.replace("_", " ") for name in PINS)
         return {
-            "slack": key_table(self.found, self.shares),
-            "participation": participation_table(self.found),
-            "pins": pin_table(self.shares),
+            "slack": text_table(header, slack),
+            "participation": text_table(("clearance [mm]", "slack [mm]", *moves), left),
+            "pins": text_table(("support", *pins, "slack over clearance"), of_pins),
         }
 
+    def figures(self) -> dict[str, Figure]:
+        """Loops under the middle roof load; slack over clearance (a), and stiffness from turn to turn (b)."""
+        loops, panels = grid(85, 1, 2)
+        for axes, machine in zip(panels.flat, MACHINES, strict=True):
+            for (colour, dashes), size in zip(reversed(style.CURVES[:4]), DRAWN_MM, strict=True):
+                case = PushedSupport(machine, size, MIDDLE, FRICTION)
+                loop, label = Loop(case, self.runs[case.name]), f"{size:g} mm" if size else "ideal pins"
+                axes.plot(1e3 * loop.shift, 1e-3 * loop.force, color=colour, ls=dashes, label=label)
+            axes.set(xlabel="displacement of the canopy [mm]", ylabel="horizontal force [kN]", title=machine)
+        finish(loops, panels, 4)
+        drawing, panels = grid(85, 1, 2)
+        slack, whole = panels.flat
+        markers = dict(zip(ROOF_SHARES, ("o", "s", "^"), strict=True))
+        sizes, ends = CLEARANCES_MM[1:], np.array([0.0, CLEARANCES_MM[-1]])
+        for machine, (colour, dashes) in zip(MACHINES, style.CURVES, strict=False):
+            slack.plot(ends, self.factor(machine) * ends, color=colour, ls=dashes, lw=0.8)
+            slack.plot([], [], color=colour, ls=dashes, label=machine)
+            for share, marker in markers.items():
+                for axes, measure, line in ((slack, "slack", "none"), (whole, "whole", dashes)):
+                    values = [self.of(measure, machine, size, share).value for size in sizes]
+                    axes.plot(sizes, values, marker, color=colour, ls=line, mfc="none", ms=4.5, lw=0.8)
+        for share, marker in markers.items():
+            slack.plot([], [], marker, color="black", mfc="none", label=f"roof load {100 * share:g} % of rated")
+        slack.set_ylabel("slack of the canopy [mm]")
+        whole.set(ylabel="stiffness from turn to turn [kN/mm]", ylim=(0, None))
+        for axes in panels.flat:
+            axes.set_xlabel("radial clearance of all pins [mm]")
+        return {"loops": loops, "slack_and_stiffness": finish(drawing, panels, 3)}
+
     def words(self) -> dict[str, object]:
-        """Numbers by machine and clearance, and how far virtual work is off."""
-        found = self.found
-        off = [  # slack against virtual work
-            abs(found["slack", case.name].value / known - 1.0)
-            for case in CASES
-            if (known := 1e3 * kinematic_slack(case, self.shares[case.machine, case.roof_share]))
-            and case.roof_share >= MIDDLE
-        ]
-
-        def number(name: str, machine: str, size: float, share: float = MIDDLE, mu: float = FRICTION) -> Number:
-            return found[name, PushedSupport(machine, size, share, mu).name]
-
+        loose = [case for case in CASES if case.clearance_mm and case.roof_share >= MIDDLE]
+        known = [self.factor(case.machine, case.roof_share) * case.clearance_mm for case in loose]
+        found = [self.found["slack", case.name].value for case in loose]
         return {
             "plan": sys.modules[__name__],
-            "of": number,
-            "slow": found["slack", SLOW.name],
-            "fast": found["slack", FAST.name],
-            "factors": {machine: factor(self.shares, machine) for machine in MACHINES},
-            "off": max(off),
+            "of": self.of,
+            "slow": self.found["slack", SLOW.name],
+            "fast": self.found["slack", FAST.name],
+            "factors": {machine: self.factor(machine) for machine in MACHINES},
+            "off": max(abs(one / other - 1.0) for one, other in zip(found, known, strict=True)),
             "left": participation,
             "middle": MIDDLE,
         }

@@ -7,18 +7,17 @@ the journal in the middle of its bore. Without friction, and with a coefficient 
 
 import math
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
-from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from studies.common.numbers import Found, Measures, cell, off, printed
+from studies.common.numbers import Measured, Measures, Number, cell, off, printed
 from studies.common.panels import letters
-from studies.common.rise import Crest, Measure, onset
+from studies.common.rise import Crest, onset
 from studies.common.runs import impacts
 from studies.common.study import Study
 from studies.common.words import text_table
@@ -65,7 +64,7 @@ IDEAL_REFERENCE = {  # channel, unit and largest value
 
 
 def scenarios() -> dict[str, Scenario]:
-    """One revolution of the ideal machine and of both those with clearance, at the longest of their steps."""
+    """One revolution of the ideal machine and of both with clearance, at the longest of their steps."""
     base = Scenario(
         machine=ravn_slider_crank(),
         drive=Steady(rate=SPEED),
@@ -77,30 +76,11 @@ def scenarios() -> dict[str, Scenario]:
     )
     stiffness = internal_contact_stiffness(BEARING, STEEL, STEEL)
     normal = LankaraniNikravesh(stiffness=stiffness, restitution=0.9, rest_velocity=1e-3)
-    frictions = {SMOOTH: Frictionless(), DRY: Ambrosio(sliding_coefficient=0.03)}
-    with_clearance = {
-        name: replace(
-            base,
-            pins={PIN: ClearancePin(contact=JournalContact(bearing=BEARING, normal=normal, friction=friction))},
-        )
-        for name, friction in frictions.items()
-    }
-    return with_clearance | {IDEAL: base}
-
-
-# --- measures ---
-
-
-def measures(result: Result) -> Measures:
-    """Unit and measure of every number of a case, by name: of the ideal machine, or of impacts."""
-    if not result.scenario.clearance_pins:
-        known = IDEAL_REFERENCE.items()
-        return {name: (unit, Crest(channel, begin=0.0)) for name, (channel, unit, _) in known}
-    found: dict[str, tuple[str, Measure]] = {PEAK: ("N", lambda run: float(run.largest_force[PIN]))}
-    for n in range(min(ONSETS, impacts(result, PIN))):
-        found[f"onset_{n + 1}_time"] = ("us", onset(PIN, n, "time", 1e6))
-        found[f"onset_{n + 1}_speed"] = ("m/s", onset(PIN, n, "speed"))
-    return found
+    found = {}
+    for name, friction in {SMOOTH: Frictionless(), DRY: Ambrosio(sliding_coefficient=0.03)}.items():
+        contact = JournalContact(bearing=BEARING, normal=normal, friction=friction)
+        found[name] = replace(base, pins={PIN: ClearancePin(contact=contact)})
+    return found | {IDEAL: base}
 
 
 KNOWN = {  # by name and case
@@ -108,9 +88,6 @@ KNOWN = {  # by name and case
     **{(f"onset_{n}_time", SMOOTH): time for n, (time, _) in enumerate(REFERENCE, 1)},
     **{(f"onset_{n}_speed", SMOOTH): speed for n, (_, speed) in enumerate(REFERENCE, 1)},
 }
-
-
-# --- figure ---
 
 
 def figure(results: Mapping[str, Result]) -> Figure:
@@ -145,16 +122,6 @@ def _over_angle(axes: Axes, result: Result, colour: str, label: str) -> None:
     axes.plot(angle, 1e-3 * result[f"pin.{PIN}.force"], color=colour, lw=0.9, label=label)
 
 
-def agreement_table(found: Found, known: Sequence[int]) -> Sheet:
-    """The first impacts without friction beside the independent solution."""
-    rows = []
-    for n in known:
-        time, speed = (found[f"onset_{n}_{what}", SMOOTH] for what in ("time", "speed"))
-        rows.append((str(n), cell(time), printed(time), cell(speed), printed(speed)))
-    known_one = "independent solution"
-    return text_table(("impact", "time [µs]", known_one, "initial impact velocity [m/s]", known_one), rows)
-
-
 # --- the study ---
 
 
@@ -166,35 +133,45 @@ class SliderCrank(Study):
     papers = KNOWN
 
     def cases(self) -> dict[str, Scenario]:
-        """A revolution of each machine."""
         return scenarios()
 
     def measures(self, run: Result) -> Measures:
-        """Numbers of the ideal machine, or impacts."""
-        return measures(run)
+        """Of the ideal machine what is known in closed form, of others impacts."""
+        if not run.scenario.clearance_pins:
+            known = IDEAL_REFERENCE.items()
+            return {name: (unit, Crest(channel, begin=0.0)) for name, (channel, unit, _) in known}
+        found: dict[str, tuple[str, Measured]] = {PEAK: ("N", lambda run: float(run.largest_force[PIN]))}
+        for n in range(min(ONSETS, impacts(run, PIN))):
+            found[f"onset_{n + 1}_time"] = ("us", onset(PIN, n, "time", 1e6))
+            found[f"onset_{n + 1}_speed"] = ("m/s", onset(PIN, n, "speed"))
+        return found
 
-    @cached_property
-    def known(self) -> list[int]:
-        """The impacts that the independent solution has, too."""
-        return [n for n in range(1, len(REFERENCE) + 1) if (f"onset_{n}_time", SMOOTH) in self.found]
+    def onsets(self, case: str, what: str, most: int) -> list[Number]:
+        """Times or speeds of the first impacts of a case, so many at most."""
+        names = [(f"onset_{n}_{what}", case) for n in range(1, most + 1)]
+        return [self.found[name] for name in names if name in self.found]
 
     def figures(self) -> dict[str, Figure]:
-        """Forces and paths."""
         return {"slider_crank": figure(self.runs)}
 
     def tables(self) -> dict[str, Sheet]:
-        """Impacts beside the independent solution."""
-        return {"table_agreement": agreement_table(self.found, self.known)}
+        """The first impacts without friction beside the independent solution."""
+        both = (self.onsets(SMOOTH, what, len(REFERENCE)) for what in ("time", "speed"))
+        rows = [
+            (str(n), cell(time), printed(time), cell(speed), printed(speed))
+            for n, (time, speed) in enumerate(zip(*both, strict=True), 1)
+        ]
+        known = "independent solution"
+        header = ("impact", "time [µs]", known, "initial impact velocity [m/s]", known)
+        return {"table_agreement": text_table(header, rows)}
 
     def words(self) -> dict[str, object]:
-        """How far numbers are from those that are known."""
-        found = self.found
-        dry = [f"onset_{n}_time" for n in range(1, ONSETS + 1)]
+        times, speeds = (self.onsets(SMOOTH, what, len(REFERENCE)) for what in ("time", "speed"))
         return {
             "run": sys.modules[__name__],
             "case": scenarios()[SMOOTH],
-            "ideal": [found[name, IDEAL] for name in IDEAL_REFERENCE],
-            "times": [off(found[f"onset_{n}_time", SMOOTH]) for n in self.known],
-            "speeds": [off(found[f"onset_{n}_speed", SMOOTH]) for n in self.known],
-            "onsets": [found[name, DRY] for name in dry if (name, DRY) in found],
+            "ideal": [self.found[name, IDEAL] for name in IDEAL_REFERENCE],
+            "times": [off(one) for one in times],
+            "speeds": [off(one) for one in speeds],
+            "onsets": self.onsets(DRY, "time", ONSETS),
         }

@@ -79,43 +79,6 @@ def whole_stroke(case: PinCase) -> WholeStroke:
     )
 
 
-def stroke_table(strokes: Mapping[tuple[str, str], WholeStroke]) -> Sheet:
-    """What is predicted over the whole stroke at a friction of 0.25."""
-    rows = []
-    for (pin, stiffness), stroke in strokes.items():
-        outlook = stroke.outlook
-        worst = outlook.worst
-        assert worst is not None
-        fastest = outlook.found[worst]
-        assert fastest is not None
-        limits = (stroke.critical, stroke.undamped, stroke.painleve)
-        rows.append((
-            pin, stiffness, "stable" if outlook.stable else "shakes", f"{fastest.growth:.2f}",
-            f"{fastest.frequency:.1f}", f"{1e3 * outlook.travels[worst]:.0f}", f"{1e6 * fastest.depth:.3g}",
-            *(f"{limit:.3f}" if limit <= 1.0 else "none" for limit in limits),
-        ))  # fmt: skip
-    header = (
-        "pin", "stiffness", "verdict", "fastest growth [1/s]", "at [Hz]", "at stroke [mm]", "depth [µm]",
-        "critical friction", "without damping", "Painlevé's threshold",
-    )  # fmt: skip
-    return text_table(header, rows, left=3)
-
-
-def stroke_numbers(strokes: Mapping[tuple[str, str], WholeStroke]) -> list[Number]:
-    """Critical friction and threshold of every pin; that there is none is not a number of the summary."""
-    names = {
-        "critical_friction": "critical",
-        "critical_friction_undamped": "undamped",
-        "painleve_friction": "painleve",
-    }
-    return [
-        Number(name, f"{pin}, {stiffness}", getattr(stroke, limit), "1", PRECISE)
-        for (pin, stiffness), stroke in strokes.items()
-        for name, limit in names.items()
-        if math.isfinite(getattr(stroke, limit))
-    ]
-
-
 # --- figures ---
 
 COLOURS = dict(zip(PINS, (style.WITH_CLEARANCE, style.THIRD, style.SMOOTH, style.PAPER), strict=True))
@@ -165,16 +128,6 @@ def _motion(axes: Axes, shown: Prepared, runs: Mapping[str, Result]) -> None:
     axes.legend(fontsize=7, loc="upper left")
 
 
-def map_figure(maps: Mapping[str, PinOutlook]) -> Figure:
-    """Growth rates over stroke and friction, a panel for each pin and stiffness, by their titles."""
-    drawing, panels = grid(120, 2, 2, sharex=True, sharey=True)
-    for axes, (title, outlook) in zip(panels.flat, maps.items(), strict=True):
-        colours = draw_map(axes, outlook)
-        axes.set_title(title, fontsize=8)
-    colour_bar(drawing, list(panels.flat), colours)
-    return finish(drawing, panels)
-
-
 # --- the study ---
 
 
@@ -194,31 +147,57 @@ class Stability(Study):
             for pin in PINS
         }
         self.numbers = [number for one in self.growths for number in one.numbers()]
-        self.numbers += stroke_numbers(self.strokes)
+        for (pin, stiffness), stroke in self.strokes.items():
+            limits = {
+                "critical_friction": stroke.critical,
+                "critical_friction_undamped": stroke.undamped,
+                "painleve_friction": stroke.painleve,
+            }
+            self.numbers += [  # that there is none is not a number of the summary
+                Number(name, f"{pin}, {stiffness}", limit, "1", PRECISE)
+                for name, limit in limits.items()
+                if math.isfinite(limit)
+            ]
 
     def saved(self) -> dict[str, Result]:
-        """The run that is drawn."""
         return {SHOWN.name: self.runs[run_name(SHOWN.name, 0, fine=True)]}
 
     def figures(self) -> dict[str, Figure]:
-        """All figures."""
-        maps = {f"{pin}, {name}": self.strokes[pin, name].outlook for pin, name in MAPPED}
+        """The answer, and growth rates over stroke and friction for pins and stiffnesses."""
+        drawing, panels = grid(120, 2, 2, sharex=True, sharey=True)
+        for axes, (pin, stiffness) in zip(panels.flat, MAPPED, strict=True):
+            colours = draw_map(axes, self.strokes[pin, stiffness].outlook)
+            axes.set_title(f"{pin}, {stiffness}", fontsize=8)
+        colour_bar(drawing, list(panels.flat), colours)
         answer = answer_figure(self.growths, self.ready[SHOWN.name], self.runs)
-        return {"stability": answer, "map": map_figure(maps)}
+        return {"stability": answer, "map": finish(drawing, panels)}
 
     def tables(self) -> dict[str, Sheet]:
-        """What is predicted."""
-        return {"table_stroke": stroke_table(self.strokes)}
+        """What is predicted over the whole stroke at a friction of 0.25."""
+        rows = []
+        for (pin, stiffness), stroke in self.strokes.items():
+            outlook, worst = stroke.outlook, stroke.outlook.worst
+            assert worst is not None
+            fastest = outlook.found[worst]
+            assert fastest is not None
+            limits = (stroke.critical, stroke.undamped, stroke.painleve)
+            rows.append((
+                pin, stiffness, "stable" if outlook.stable else "shakes", f"{fastest.growth:.2f}",
+                f"{fastest.frequency:.1f}", f"{1e3 * outlook.travels[worst]:.0f}", f"{1e6 * fastest.depth:.3g}",
+                *(f"{limit:.3f}" if limit <= 1.0 else "none" for limit in limits),
+            ))  # fmt: skip
+        header = (
+            "pin", "stiffness", "verdict", "fastest growth [1/s]", "at [Hz]", "at stroke [mm]", "depth [µm]",
+            "critical friction", "without damping", "Painlevé's threshold",
+        )  # fmt: skip
+        return {"table_stroke": text_table(header, rows, left=3)}
 
     def words(self) -> dict[str, object]:
-        """Growths and limits."""
-        strokes = self.strokes
+        shaking = {pin for (pin, _), stroke in self.strokes.items() if not stroke.outlook.stable}
         return {
             "run": sys.modules[__name__],
             "growths": self.growths,
             "by_name": {one.case: one for one in self.growths},
-            "strokes": strokes,
-            "shaking": [
-                pin for pin in PINS if any(not strokes[pin, name].outlook.stable for name in STIFFNESSES)
-            ],
+            "strokes": self.strokes,
+            "shaking": [pin for pin in PINS if pin in shaking],
         }

@@ -1,19 +1,18 @@
 """Which pins are clearance, with how much clearance and friction, and what is measured of these cases."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from itertools import combinations
 
 import numpy as np
 
-from studies.common.numbers import Found, Measures, Number, measured_all
-from studies.common.paper_machine import CLEARANCE_MM
-from studies.common.rise import DEGREES, Measure, Versus, Watched
-from studies.common.subject import Subject, without_clearance
+from studies.common.numbers import Measured, Measures, Number
+from studies.common.rise import DEGREES, Versus, Watched
+from studies.common.study import Study
+from studies.common.subject import without_clearance
 from studies.which_pin.closed_form import posture_numbers
 from support_exudyn import CubicStep, Result, Scenario, SolverSettings
-from support_exudyn.machines.four_bar_shield import PINS
 from support_exudyn.mechanics.channels import ALL_CHANNELS
 from support_exudyn.simulation.automatic_settings import cheapest, settings_for
 from user_forces.values.value import InputError
@@ -21,7 +20,7 @@ from user_forces.values.value import InputError
 CONDITIONS = ((0.25, 1.5), (0.1, 1.5), (0.25, 0.5), (0.0, 1.5))  # friction and clearance [mm], single pins
 ADDS_UP = 2.0  # [%]: shifts whose sum is off by less are said to add up; ten times that for shaking
 ALIKE = 0.05  # pins whose effects differ by less of the larger are said to be alike
-SHIFT, FORCES, SHAKING = RANKED = "mean_tip_shift_forward", "largest_change_of_a_mean_force", "rms_pin_forces"
+SHIFT, FORCES, SHAKING = "mean_tip_shift_forward", "largest_change_of_a_mean_force", "rms_pin_forces"
 OVER_IDEAL = "largest_peak_over_ideal"
 IDEAL = "ideal"  # without friction
 ALL = "all five"  # of the paper's machine
@@ -37,20 +36,10 @@ SETTINGS = SolverSettings(impact_steps=16, spectral_radius=0.8, newton_tolerance
 OWN_GOAL = 1e-2  # by which the first steps of one's own machine are chosen
 
 
-def case_name(
-    pins: Sequence[str], friction: float, clearance_mm: float = CLEARANCE_MM, usual_mm: float = CLEARANCE_MM
-) -> str:
-    """What a case is called: its clearance pins, their friction, and their clearance if it is another one."""
-    named = ALL if len(pins) == len(PINS) else " + ".join(pins)
-    other = "" if clearance_mm == usual_mm else f", {clearance_mm:g} mm"
-    return f"{named}, mu_d = {friction:g}{other}"
-
-
-@dataclass(frozen=True)
-class PinPlan:
+class PinCases(Study):
     """The cases of a machine: each of its pins alone, and all together."""
 
-    subject: Subject
+    own_machine = True
 
     @cached_property
     def pins(self) -> tuple[str, ...]:
@@ -68,16 +57,6 @@ class PinPlan:
         watched = self.subject.watched
         end = BEGIN + watched.end - watched.start
         return replace(watched, start=BEGIN, end=end) if self.subject.is_paper else watched
-
-    @cached_property
-    def motion(self) -> Scenario:
-        """The run with ideal pins, all channels recorded."""
-        motion = self.subject.motion
-        if self.subject.is_paper:
-            drive = CubicStep(start=self.watched.start, end=self.watched.end)
-            motion = replace(motion, drive=drive, duration=self.watched.end)
-        period = min(motion.recorded_every, STEP)
-        return replace(motion, pins={}, channels=ALL_CHANNELS, accuracy=None, record_period=period, step=STEP)
 
     @cached_property
     def forces(self) -> dict[str, str]:
@@ -99,8 +78,7 @@ class PinPlan:
     @property
     def rankings(self) -> dict[str, str]:
         """The orders of the machine's pins: title and number."""
-        titles = ("by the tip's position", "by the forces", "by the shaking")
-        every = dict(zip(titles, RANKED, strict=True))
+        every = {"by the tip's position": SHIFT, "by the forces": FORCES, "by the shaking": SHAKING}
         return {title: name for title, name in every.items() if self.has_tip or name != SHIFT}
 
     @property
@@ -111,20 +89,19 @@ class PinPlan:
     @property
     def conditions(self) -> tuple[tuple[float, float], ...]:
         """Friction and clearance [mm] of the single pins."""
-        own = tuple((friction, self.subject.clearance_mm) for friction in self.frictions)
-        return CONDITIONS if self.subject.is_paper else own
+        if self.subject.is_paper:
+            return CONDITIONS
+        return tuple((friction, self.subject.clearance_mm) for friction in self.frictions)
 
     def case_name(self, pins: Sequence[str], friction: float, clearance_mm: float | None = None) -> str:
-        """What a case is called, see `case_name`."""
-        size = self.subject.clearance_mm if clearance_mm is None else clearance_mm
-        named = [self.everything] if len(pins) == len(self.pins) else pins
-        return case_name(named, friction, size, self.subject.clearance_mm)
+        """What a case is called: its clearance pins, their friction, and an unusual clearance."""
+        named = self.everything if len(pins) == len(self.pins) else " + ".join(pins)
+        other = "" if clearance_mm in (None, self.subject.clearance_mm) else f", {clearance_mm:g} mm"
+        return f"{named}, mu_d = {friction:g}{other}"
 
-    def alone(
-        self, found: Found, name: str, friction: float, clearance_mm: float | None = None
-    ) -> dict[str, Number]:
+    def alone(self, name: str, friction: float, clearance_mm: float | None = None) -> dict[str, Number]:
         """A number of each pin alone, by the name of the pin."""
-        return {pin: found[name, self.case_name((pin,), friction, clearance_mm)] for pin in self.pins}
+        return {pin: self.found[name, self.case_name((pin,), friction, clearance_mm)] for pin in self.pins}
 
     @cached_property
     def loose(self) -> Mapping[str, tuple[Sequence[str], float, float]]:
@@ -148,41 +125,42 @@ class PinPlan:
         """The case with ideal pins, the same ones with the same friction, that a case is compared with."""
         return self.ideal_name(*self.loose[case][:2]) if case in self.loose else case
 
-    @cached_property
-    def scenarios(self) -> dict[str, Scenario]:
+    def cases(self) -> dict[str, Scenario]:
         """All cases with clearance, and the ideal pins that they are compared with.
 
         Machines on actuators start settled, as a support stands that waits to be raised.
         """
-        period = min(self.motion.recorded_every, STEP)
-        if self.watched.window < 2.0 * period:
+        subject, watched = self.subject, self.watched
+        motion = subject.motion
+        if subject.is_paper:
+            drive = CubicStep(start=watched.start, end=watched.end)
+            motion = replace(motion, drive=drive, duration=watched.end)
+        period = min(motion.recorded_every, STEP)
+        if watched.window < 2.0 * period:
             raise InputError(
-                f"motion from {self.watched.start:g} to {self.watched.end:g} s, a record every {period:g} s: "
+                f"motion from {watched.start:g} to {watched.end:g} s, a record every {period:g} s: "
                 f"allowed: longer than {40.0 * period:g} s, to separate fluctuations from the trend, or more "
                 "records"
             )
-        motion = replace(self.motion, formulation="exudyn")
+        motion = replace(motion, pins={}, channels=ALL_CHANNELS, accuracy=None, record_period=period, step=STEP)
         start = motion.start if motion.unloaded.cranks else "settled"
-
-        def clearance(pins: Sequence[str], friction: float, clearance_mm: float) -> Scenario:
-            loose = dict.fromkeys(pins, self.subject.clearance_pin(clearance_mm, friction))
-            case = replace(motion, pins=loose, solver=SETTINGS, start=start)
-            return case if self.subject.is_paper else settings_for(case, OWN_GOAL)
-
-        cases = {name: clearance(*how) for name, how in self.loose.items()}
-        ideal = {self.ideal_name(*how[:2]): how for how in self.loose.values()}
-        for name, (pins, friction, clearance_mm) in ideal.items():
-            pin = without_clearance(self.subject.clearance_pin(clearance_mm, friction))
-            case = replace(self.motion, pins=dict.fromkeys(pins, pin) if friction else {})
+        cases = {}
+        for name, (pins, *how) in self.loose.items():
+            pin = subject.clearance_pin(how[1], how[0])
+            case = replace(
+                motion, pins=dict.fromkeys(pins, pin), formulation="exudyn", solver=SETTINGS, start=start
+            )
+            cases[name] = case if subject.is_paper else settings_for(case, OWN_GOAL)
+        for pins, friction, clearance_mm in self.loose.values():
+            tight = without_clearance(subject.clearance_pin(clearance_mm, friction))
+            case = replace(motion, pins=dict.fromkeys(pins, tight) if friction else {})
             case = replace(case, formulation="auto", solver=SolverSettings())
-            cases[name] = replace(case, formulation=cheapest(case))
+            cases[self.ideal_name(pins, friction)] = replace(case, formulation=cheapest(case))
         return cases
 
-    # --- measures ---
-
-    @property
-    def measures(self) -> Measures:
+    def measures(self, run: Result) -> Measures:
         """Unit and measure of every number of a run against the ideal one, by name."""
+        del run  # all have the same
         watched, forces = self.watched, self.forces
         peaks = {f"largest_force_{name}": watched.peak(channel) for channel, name in forces.items()}
 
@@ -200,8 +178,6 @@ class PinPlan:
                 for peak in peaks.values()
             )
 
-        over_ideal = Versus(lambda run, ideal: max(p(run) / p(ideal) for p in peaks.values()), missed)
-
         def lost(run: Result) -> float:
             all_lost = run["energy.damping_loss"] + run["energy.friction_loss"]
             return float(np.diff(all_lost[watched.in_rise(run)][[0, -1]])[0])
@@ -210,7 +186,8 @@ class PinPlan:
             along, up = (watched.departure(run, ideal, f"{TIP}.{axis}") for axis in "xy")
             return 1e3 * float(np.hypot(along, up).max())
 
-        measures: dict[str, tuple[str, Measure | Versus]] = {
+        over_ideal = Versus(lambda run, ideal: max(p(run) / p(ideal) for p in peaks.values()), missed)
+        measures: dict[str, tuple[str, Measured]] = {
             FORCES: ("%", Versus(lambda run, ideal: max(map(abs, changes(run, ideal).values())))),
             OVER_IDEAL: ("1", over_ideal),
             SHAKING: ("N", all_pins),
@@ -221,24 +198,23 @@ class PinPlan:
             fluctuation = watched.fluctuation_of(f"{body}.angular_acceleration", DEGREES)
             measures[f"rms_{body}_angular_acceleration"] = ("deg/s^2", fluctuation)
         for channel, name in forces.items():
+            change = Versus(lambda run, ideal, name=name: changes(run, ideal)[name])  # type: ignore[misc]
             measures[f"mean_force_{name}"] = ("N", watched.mean_of(channel))
-            measures[f"change_of_mean_force_{name}"] = (
-                "%",
-                Versus(lambda run, ideal, name=name: changes(run, ideal)[name]),  # type: ignore[misc]
-            )
+            measures[f"change_of_mean_force_{name}"] = ("%", change)
             measures[f"rms_force_{name}"] = ("N", watched.fluctuation_of(channel))
-        of_posture: dict[str, tuple[str, Measure | Versus]] = {
-            SHIFT: ("mm", watched.shift_of(f"{TIP}.x", 1e3)),
-            "mean_tip_shift_up": ("mm", watched.shift_of(f"{TIP}.y", 1e3)),
-            "largest_tip_shift": ("mm", Versus(largest_shift)),
-            "mean_canopy_tilt": ("deg", watched.shift_of(f"{ROOF}.angle", DEGREES)),
-            "rms_tip_forward": ("mm", watched.fluctuation_of(f"{TIP}.x", 1e3)),
-        }
-        return measures | (of_posture if self.has_tip else {})
+        if self.has_tip:
+            measures |= {
+                SHIFT: ("mm", watched.shift_of(f"{TIP}.x", 1e3)),
+                "mean_tip_shift_up": ("mm", watched.shift_of(f"{TIP}.y", 1e3)),
+                "largest_tip_shift": ("mm", Versus(largest_shift)),
+                "mean_canopy_tilt": ("deg", watched.shift_of(f"{ROOF}.angle", DEGREES)),
+                "rms_tip_forward": ("mm", watched.fluctuation_of(f"{TIP}.x", 1e3)),
+            }
+        return measures
 
-    def numbers(self, results: Mapping[str, Result]) -> list[Number]:
+    def measure(self, runs: Mapping[str, Result]) -> list[Number]:
         """All numbers of the runs, and those of the closed form beside them."""
-        numbers = measured_all(results, self.measures, self.ideal_of)
+        numbers = super().measure(runs)
         for case in self.loose if self.subject.is_paper else ():
-            numbers += posture_numbers(case, results[case].scenario)
+            numbers += posture_numbers(case, runs[case].scenario)
         return numbers

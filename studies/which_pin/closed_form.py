@@ -37,23 +37,13 @@ from support_exudyn.model.linkage import GROUND
 from user_forces.values.value import Vector2
 
 Matrix = npt.NDArray[np.float64]
+Press = tuple[str, Vector2, Vector2]  # a force on a body, its point in the start posture [m]; forward, up [N]
 
 GRAVITY = (0.0, -9.81)  # [m/s^2]
 BESIDE = 5e-3  # [s] between the postures by which speeds and accelerations are taken
 NEWTON = 8  # steps from a posture to the next; their errors are squared by each
 ROUNDS = 20  # of pin forces and the friction that follows from them; each leaves a tenth of the last change
 TIP_X, TIP_Y, TILT = range(3)  # of a shift [m], [m], [rad]
-
-
-class Press(NamedTuple):
-    """A force that presses on the support besides its weight.
-
-    body, point: where, in the start posture [m]. force: forward and up [N].
-    """
-
-    body: str
-    point: Vector2
-    force: Vector2
 
 
 class Stand(NamedTuple):
@@ -111,8 +101,8 @@ def forces(stand: Stand, rubbing: Mapping[str, ClearancePin], presses: Sequence[
     """
     kinetics = stand.kinetics
     load = kinetics.weight(GRAVITY) - kinetics.mass() * stand.acceleration
-    for press in presses:
-        load = load + np.array(press.force) @ kinetics.point(stand.position, *press[:2])[1]
+    for body, point, force in presses:
+        load = load + np.array(force) @ kinetics.point(stand.position, body, point)[1]
     carried, moments = np.zeros_like(load), np.zeros_like(load)
     for _ in range(ROUNDS if rubbing else 1):
         carried[:] = np.linalg.solve(stand.constraints.T, load + moments)
@@ -207,13 +197,13 @@ def loads(pin: ClearancePin) -> dict[str, UnderLoad]:
     start = support.start()
     (ax, ay), (bx, by) = start.ends["front_head"], start.ends["rear_head"]
     columns = 0.5 * (ax + bx), 0.5 * (ay + by)
-    presses = {
+    presses: dict[str, tuple[Press, ...]] = {
         "weight alone": (),
-        "1 MN down over the columns": (Press("canopy", columns, (0.0, -1e6)),),
-        "100 kN down over the hinge": (Press("canopy", start.hinge, (0.0, -1e5)),),
-        "100 kN down on the tip": (Press("canopy", start.tip, (0.0, -1e5)),),
-        "100 kN to the rear": (Press("canopy", columns, (-1e5, 0.0)),),
-        "100 kN forward": (Press("canopy", columns, (1e5, 0.0)),),
+        "1 MN down over the columns": (("canopy", columns, (0.0, -1e6)),),
+        "100 kN down over the hinge": (("canopy", start.hinge, (0.0, -1e5)),),
+        "100 kN down on the tip": (("canopy", start.tip, (0.0, -1e5)),),
+        "100 kN to the rear": (("canopy", columns, (-1e5, 0.0)),),
+        "100 kN forward": (("canopy", columns, (1e5, 0.0)),),
     }
     extension = np.linspace(0.0, STROKE, PLACES)
     along = stands(support, Steady(rate=CREEP), (extension / CREEP).tolist())

@@ -101,14 +101,27 @@ def side_by_side(found: Sequence[Estimate | None], most: int = DIGITS) -> tuple[
     """Unit, and numbers of several runs in it with their errors, of at most so many digits; None: empty."""
     there = [one for one in found if one is not None]
     unit = readable(there[0].unit, max(abs(one.value) for one in there))
-    return unit.name, *("" if one is None else to_error(one, unit.scale, most) for one in found)
+    return unit.name, *("" if one is None else rounded(unit.scale * one.value, unit.scale * one.error, most) for one in found)
 
 
-def to_error(number: Estimate, scale: float, most: int = DIGITS) -> str:
-    """A number to the first digit of its error, and the error, unless that is below the shown digits."""
-    value, error = scale * number.value, scale * number.error
-    size = math.floor(math.log10(abs(value))) if value else 0
-    decimals = max(-math.floor(math.log10(error)), 0) if math.isfinite(error) and error > 0.0 else math.inf
-    if decimals > most - 1 - size:
-        return f"{value:.{most}g}"
-    return f"{value:.{decimals}f} ± {error:.{decimals}f}"
+def rounded(value: float, error: float, most: int = DIGITS) -> str:
+    """A number with its error, both to two digits of the error, at most `most` digits of the number.
+
+    An error below the last of these digits is not printed: all printed digits are right.
+    """
+    if error == 0.0 or not math.isfinite(error):
+        return f"{value:.9g}" if most == DIGITS else f"{value:.{most}g}"
+    if value.is_integer() and error.is_integer() and abs(value) + error < 1e6:
+        return f"{value:.0f} ± {error:.0f}"  # counts
+    last = most - 1 - math.floor(math.log10(max(abs(value), error)))
+    if error < 0.5 * 10.0**-last:
+        return _plain(value, last)
+    digits = min(last, 1 - math.floor(math.log10(error)))
+    return f"{_plain(value, digits)} ± {_plain(error, digits)}"
+
+
+def _plain(value: float, digits: int) -> str:
+    """A number with so many decimals; below 0 that many zeros end it. Small numbers have a power of ten."""
+    if digits > 8:
+        return f"{value:.{max(0, digits + math.floor(math.log10(abs(value))))}e}" if value else "0"
+    return f"{round(value, digits):.{max(0, digits)}f}"

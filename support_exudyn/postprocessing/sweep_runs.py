@@ -14,7 +14,7 @@ import numpy as np
 
 from support_exudyn.files.series.units import split_title
 from support_exudyn.postprocessing.figures.units import DisplayUnit, readable
-from support_exudyn.postprocessing.shown_numbers import DIGITS, to_error
+from support_exudyn.postprocessing.shown_numbers import DIGITS, rounded
 from support_exudyn.simulation.estimate import Estimate
 from user_forces.values.value import InputError, short
 
@@ -155,7 +155,9 @@ def as_frame(runs: SweepRuns, columns: Sequence[str]) -> pd.DataFrame:
         errors = np.full(number.values.size, np.nan) if number.errors is None else number.errors
         pairs = [Estimate(*pair, number.unit) for pair in zip(number.values, errors, strict=True)]
         scale = number.display.scale
-        cells[number.title] = ["" if np.isnan(one.value) else to_error(one, scale) for one in pairs]
+        cells[number.title] = [
+            "" if np.isnan(one.value) else rounded(scale * one.value, scale * one.error) for one in pairs
+        ]
     return pandas.DataFrame(cells)
 
 

@@ -9,19 +9,18 @@ import numpy as np
 import pytest
 
 from studies.blow import run as study
-from studies.blow.blows import BEFORE, BLOWS, MACHINES, PINS, PLACES, STRIKE, Blow, cases, yield_valve
+from studies.blow.blows import BEFORE, BLOWS, MACHINES, PINS, PLACES, STRIKE, Blow, all_blows, yield_valve
 from studies.blow.run import MEASURES
 from studies.common.options import Options
-from studies.common.words import Chapter
 from support_exudyn import SolverSettings, simulate
 
 TIP = Blow("reference", "tip", 2.0, 0.5, "ideal", valve=True)
 
 
 def test_all_is_crossed_but_masses_and_heights() -> None:
-    found = cases()
+    found = all_blows()
     assert len(set(found)) == len(found) == 2 * len(MACHINES) * len(PLACES) * len(BLOWS) * len(PINS)
-    assert set(cases(small=True)) < set(found)
+    assert set(all_blows(small=True)) < set(found)
 
 
 @pytest.mark.parametrize("height", [0.2, 0.5, 2.0])
@@ -41,8 +40,8 @@ def test_a_support_stands_still_until_it_is_struck(pins: str) -> None:
         pressure = run[f"{name}.pressure"][before]
         assert np.ptp(pressure) < 0.01 * pressure[0]
     assert 1e6 * 30 < run["front_column.pressure"][0] < yield_valve("reference").opening_pressure
-    pressure, flow, tilt = (MEASURES[name][2](run) for name in ("pressure", "flow", "tilt"))
-    assert pressure > yield_valve("reference").opening_pressure  # the valve opens
+    pressure, flow, tilt = (MEASURES[name][1](run) for name in ("pressure", "flow", "tilt"))
+    assert 1e6 * pressure > yield_valve("reference").opening_pressure  # the valve opens
     assert flow > 0.0
     assert tilt < 0.0  # forward
     # in its first contact the block gives all of its momentum, and twice of it at the most
@@ -64,6 +63,5 @@ def test_a_law_that_wavers_between_pressure_and_tension_does_not_hold_up_a_blow(
 @pytest.mark.slow
 def test_the_small_form_makes_a_chapter(tmp_path: Path) -> None:
     chapter = study.BlowStudy(Options(out=tmp_path, workers=2, runs=1)).write()
-    assert isinstance(chapter, Chapter)
     assert (tmp_path / "peaks.png").is_file()
     assert not any(text.strip() == "" for text in (chapter.answer, *chapter.findings))

@@ -60,14 +60,9 @@ def test_the_ripple_of_a_sine_on_a_slope_is_known(period: float, frequency: floa
 
 def test_only_what_is_between_the_times_counts() -> None:
     run = Record(courses={"x": lambda t: np.where((t > 3.7) & (t < 4.3), np.sin(2 * np.pi * 20.0 * t), 0.0)})
-    shaking = rise.PAPER.rms_fluctuation(run, run["x"], *rise.STAGES["middle"])
-    assert shaking == pytest.approx(np.sqrt(0.5), rel=0.02)  # one record in the window is more than two periods
-    assert (
-        rise.PAPER.rms_fluctuation(run, run["x"], *rise.STAGES["early"]) <= 1e-15
-    )  # rounding of sums of zeros
-    assert (
-        rise.PAPER.rms_fluctuation(run, run["x"], *rise.STAGES["late"]) <= 1e-13
-    )  # of what the moving sum has passed
+    found = {name: rise.PAPER.rms_fluctuation(run, run["x"], *times) for name, times in rise.STAGES.items()}
+    assert found["middle"] == pytest.approx(np.sqrt(0.5), rel=0.02)  # a window is more than two periods
+    assert max(found["early"], found["late"]) <= 1e-13  # rounding of what the moving sum has passed
     # six of 18 tenths of a second shake, ten records of 600 more or less where the trend sees the borders
     assert rise.PAPER.rms_fluctuation(run, run["x"]) == pytest.approx(np.sqrt(0.5 / 3.0), rel=0.05)
 
@@ -76,16 +71,14 @@ def test_only_what_is_between_the_times_counts() -> None:
 
 
 def test_the_same_course_is_alike_whatever_its_size_and_shaking() -> None:
-    plain = Record(courses={"x": lambda t: np.sin(t)})
-    other = Record(courses={"x": lambda t: 5.0 - 3.0 * np.sin(t)})
-    shaken = Record(courses={"x": lambda t: 2.0 * np.sin(t) + 0.3 * np.sin(2 * np.pi * 20.0 * t)})
-    assert rise.PAPER.likeness(plain, plain, "x") == pytest.approx(1.0, abs=1e-12)  # rounding
-    assert rise.PAPER.likeness(plain, other, "x") == pytest.approx(-1.0, abs=1e-12)
+    def alike(other: Callable[[Series], Series]) -> float:
+        return rise.PAPER.likeness(Record(courses={"x": np.sin}), Record(courses={"x": other}), "x")
+
+    assert alike(np.sin) == pytest.approx(1.0, abs=1e-12)  # rounding
+    assert alike(lambda t: 5.0 - 3.0 * np.sin(t)) == pytest.approx(-1.0, abs=1e-12)
     # of the shaking the trend keeps 1 %, 0.003, of a course whose standard deviation is 0.66
-    assert rise.PAPER.likeness(plain, shaken, "x") == pytest.approx(1.0, abs=1e-4)
-    assert rise.PAPER.likeness(shaken, plain, "x") == pytest.approx(
-        rise.PAPER.likeness(plain, shaken, "x"), abs=1e-12
-    )
+    shaken = alike(lambda t: 2.0 * np.sin(t) + 0.3 * np.sin(2 * np.pi * 20.0 * t))
+    assert shaken == pytest.approx(1.0, abs=1e-4)
 
 
 # --- means, departures, angles ---
@@ -99,16 +92,9 @@ def test_the_mean_of_a_stage_is_of_magnitudes(stage: str) -> None:
     assert rise.PAPER.stage_mean_of("y", stage)(run) == 1.0
 
 
-def test_angles_are_those_of_figure_12() -> None:
-    # a column that leans forward by 0.2, and one that leans to the rear by 0.2; x points forward
-    run = Record(
-        courses={
-            "front_column.angle": lambda t: np.full_like(t, 0.5 * np.pi - 0.2),
-            "rear_column.angle": lambda t: np.full_like(t, 0.5 * np.pi + 0.2),
-        }
-    )
+@pytest.mark.parametrize(("column", "forward"), [("front_column", 0.2), ("rear_column", -0.2)])
+def test_angles_are_those_of_figure_12(column: str, forward: float) -> None:
+    run = Record(courses={f"{column}.angle": lambda t: np.full_like(t, 0.5 * np.pi - forward)})  # x is forward
     # from the rearward horizontal; rounding
-    assert rise.rearward_angle(run, "front_column") == pytest.approx(0.5 * np.pi + 0.2, rel=1e-15)
-    assert rise.rearward_angle(run, "rear_column") == pytest.approx(0.5 * np.pi - 0.2, rel=1e-15)
-    assert rise.lean(run, "front_column") == pytest.approx(0.2, rel=1e-14)
-    assert rise.lean(run, "rear_column") == pytest.approx(0.2, rel=1e-14)
+    assert rise.rearward_angle(run, column) == pytest.approx(0.5 * np.pi + forward, rel=1e-15)
+    assert rise.lean(run, column) == pytest.approx(0.2, rel=1e-14)

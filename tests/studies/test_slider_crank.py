@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
 from studies.common.options import Options
+from studies.common.runs import file_name
 from studies.common.words import Chapter
 from studies.slider_crank import run as study
 from support_exudyn import Result
 from support_exudyn.postprocessing.figures import style
 from tests import figure_checks
 from tests.at_once import at_once
-from tests.studies.forms import Numbers
+from tests.studies.forms import Numbers, numbers_of
 
 
 @pytest.fixture(scope="module")
@@ -26,24 +25,14 @@ def numbers(tmp_path_factory: pytest.TempPathFactory) -> Numbers:
         part = {name: replace(case, duration=case.duration / 9.0) for name, case in whole.items()}  # 1.33 ms
         patch.setattr(study, "scenarios", lambda: part)
         study.SliderCrank(Options(out, at_once())).write()
-    assert (out / "slider_crank.png").read_bytes().startswith(b"\x89PNG")
-    assert "onset 5 speed" in Path(out / "numbers.csv").read_text(encoding="utf-8")
     with style.look():
-        cases = (study.IDEAL, study.SMOOTH, study.DRY)
-        files = {case: f"{case.replace(' ', '_').replace('.', 'p')}.h5" for case in cases}
-        figure_checks.check(
-            study.figure({case: Result.load(out / "runs" / file) for case, file in files.items()})
-        )
+        runs = {case: Result.load(out / "runs" / f"{file_name(case)}.h5") for case in part}
+        figure_checks.check(study.figure(runs))
     chapter = Chapter.load(out)
-    assert chapter.findings[0].startswith("Without friction the first 5 impacts are within ")
     assert chapter.answer.startswith("Yes: the first 5 impacts of the frictionless machine are within ")
-    assert len(chapter.numbers) == 3
-    key = chapter.sheets[0]
-    assert (key.name, [row[0] for row in key.rows]) == ("table_agreement", ["1", "2", "3", "4", "5"])
+    assert [row[0] for row in chapter.sheets[0].rows] == ["1", "2", "3", "4", "5"]
     assert [picture.stem for picture in chapter.pictures] == ["slider_crank"]
-    summary = json.loads((out / "summary.json").read_text(encoding="utf-8"))
-    assert summary["study"] == "slider_crank"
-    return {(n["name"], n["case"]): n for n in summary["numbers"]}
+    return numbers_of(out)
 
 
 def test_onsets_agree_with_the_independent_solution(numbers: Numbers) -> None:

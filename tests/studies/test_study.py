@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import shutil
 from collections.abc import Callable
 from dataclasses import replace
@@ -16,20 +17,14 @@ from hypothesis import strategies as st
 
 from studies.common import rise
 from studies.common import runs as runs_module
-from studies.common.numbers import (
-    Number,
-    against,
-    compared,
-    error_of_records,
-    measured,
-    rounded,
-)
+from studies.common.numbers import Number, against, error_of_records, measured_all, with_error
 from studies.common.options import Options
-from studies.common.rise import Series
+from studies.common.rise import Count, Series, Versus
 from studies.common.runs import halvings, run_cases, run_with_errors
-from studies.common.subject import chosen_subject, own_subject
+from studies.common.subject import own_subject
 from support_exudyn import CubicStep, IdealPin, Result, Scenario, Steady, ravn_slider_crank
 from support_exudyn.files import save_scenario
+from support_exudyn.postprocessing.shown_numbers import rounded
 from tests.cases.run_cases import loose_support
 from user_forces.values.value import InputError
 
@@ -124,39 +119,32 @@ def test_a_scenario_of_ones_own_keeps_all_but_the_clearance_and_the_friction(tmp
 
 @pytest.mark.parametrize("form", ["name", "file", "scenario", "scenario with the pin"])
 def test_a_pin_of_ones_own_machine_has_the_bore_of_its_file(form: str, tmp_path: Path) -> None:
-    shutil.copy(MACHINES / "zf18000.toml", tmp_path / "mine.toml")
-    path = tmp_path / "mine.toml"
+    path = Path(shutil.copy(MACHINES / "zf18000.toml", tmp_path / "mine.toml"))
     if form.startswith("scenario"):
         path = tmp_path / "run.toml"
         pin = "[pins.rear_base]\nclearance_mm = 1.5\n" if form.endswith("pin") else ""
         path.write_text('machine = "mine.toml"\nduration_s = 5\ndrive = { mode = 2 }\n' + pin, encoding="utf-8")
     subject = own_subject(Path("zf18000") if form == "name" else path, "rear_base")
     contact = subject.with_clearance(1.5, 0.25).pins["rear_base"].contact  # type: ignore[attr-defined]
-    assert contact.bearing.bore_radius == pytest.approx(0.1008)
-    assert contact.normal.length == 1.077  # of its file, too
-    assert (
-        "rear_base touches its bore of 100.8 mm radius along its length of 1077 mm" in subject.contact_in_words
-    )
-    assert contact.normal.bearing == contact.bearing
-    assert subject.bore_radius == contact.bearing.bore_radius
+    assert contact.bearing.bore_radius == subject.bore_radius == pytest.approx(0.1008)
+    assert (contact.normal.length, contact.normal.bearing) == (1.077, contact.bearing)  # of its file, too
+    assert "bore of 100.8 mm radius along its length of 1077 mm" in subject.contact_in_words
 
 
-def test_a_bore_that_is_said_nowhere_is_asked_for(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("pin", "left_out", "message"),
+    [
+        ("rear_base", r"\[bore_radius_mm\][^\[]*", "rear_base: the radius of its bore is missing; allowed: "),
+        ("middle", "$^", "--pin 'middle': no such pin; allowed: .*rear_base"),
+    ],
+)
+def test_a_pin_or_a_bore_that_is_missing_is_asked_for(
+    pin: str, left_out: str, message: str, tmp_path: Path
+) -> None:
     text = (MACHINES / "zf18000.toml").read_text(encoding="utf-8")
-    before, _, after = text.partition("[bore_radius_mm]")
-    (tmp_path / "mine.toml").write_text(before + after.partition("\n[")[1] + after.partition("\n[")[2])
-    with pytest.raises(
-        InputError, match=r"mine\.toml: rear_base: the radius of its bore is missing; allowed: "
-    ):
-        own_subject(tmp_path / "mine.toml", "rear_base")
-
-
-def test_a_pin_that_the_machine_does_not_have_is_refused(tmp_path: Path) -> None:
-    shutil.copy(MACHINES / "zf18000.toml", tmp_path / "mine.toml")
-    with pytest.raises(InputError, match=r"mine\.toml: --pin 'middle': no such pin; allowed: .*rear_base"):
-        own_subject(tmp_path / "mine.toml", "middle")
-    with pytest.raises(InputError, match="--pin rear_base: allowed: together with --machine FILE"):
-        chosen_subject(None, "rear_base")
+    (tmp_path / "mine.toml").write_text(re.sub(left_out, "", text), encoding="utf-8")
+    with pytest.raises(InputError, match=rf"mine\.toml: {message}"):
+        own_subject(tmp_path / "mine.toml", pin)
 
 
 # --- kept runs ---
@@ -200,24 +188,24 @@ def thinned(measure: Callable[[Result], float], every: int, run: Result) -> floa
     return measure(replace(run, channels=channels, coarser=None))
 
 
-def test_a_number_has_the_error_that_accuracies_estimate(runs: dict[str, Result]) -> None:
+def test_a_number_has_the_errors_of_steps_and_of_records(runs: dict[str, Result]) -> None:
     run = runs["fast"]
-    found, told = measured("moment", "fast", "N m", run, moment, 2.0), run.estimate(moment)
-    assert (found.value, found.paper) == (told.value, 2.0)
-    assert found.numerical_error == told.error + error_of_records(lambda n: thinned(moment, n, run))
-    last_one = measured("end", "fast", "N m", run, lambda run: float(run["crank.moment"][0]))
-    assert last_one.numerical_error == run.estimate(lambda run: float(run["crank.moment"][0])).error
+    (found,) = measured_all({"fast": run}, {"moment": ("N m", moment)}, papers={("moment", "fast"): 2.0})
+    assert (found.value, found.unit, found.paper) == (moment(run), "N m", 2.0)
+    of_records = error_of_records(lambda n: thinned(moment, n, run))
+    assert found.numerical_error == run.estimate(moment).error + of_records
     *_, before, last = map(moment, halvings(run))
     assert found.numerical_error > abs(last - before) / 3.0  # which is the error of second order itself
-    assert found.value == last
+    first, _, last_steps = (one.counts.steps for one in halvings(run))
+    assert with_error(Count(lambda run: run.counts.steps), run) == (last_steps, last_steps - first)
 
 
 def test_errors_of_both_runs_add_up_in_a_comparison(runs: dict[str, Result]) -> None:
     fast, slow = runs["fast"], runs["slow"]
-    found = compared("more", "fast", "N m", fast, slow, lambda run, other: moment(run) - moment(other))
-    assert found.value == moment(fast) - moment(slow)
+    more = Versus(lambda run, other: moment(run) - moment(other))
+    value, error = with_error(more, fast, slow)
+    assert value == moment(fast) - moment(slow)
     apart = fast.estimate(moment).error + slow.estimate(moment).error
     apart += error_of_records(lambda n: thinned(moment, n, fast) - thinned(moment, n, slow))
-    assert found.numerical_error == pytest.approx(apart, rel=1e-2)  # but for shares of rounding
-    own = compared("more", "fast", "N m", fast, fast, lambda run, other: moment(run) - moment(other))
-    assert own.value == 0.0
+    assert error == pytest.approx(apart, rel=1e-2)  # but for shares of rounding
+    assert with_error(more, fast, fast) == (0.0, 0.0)

@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from studies.common.subject import own_subject, paper_subject, without_clearance
-from studies.which_pin import cases as which_pin_cases
+from studies.common.options import Options
+from studies.common.subject import Subject, own_subject, paper_subject, without_clearance
 from studies.which_pin import closed_form as clearance
 from studies.which_pin.closed_form import loads, mean_shift
-from studies.which_pin.run import in_order
+from studies.which_pin.run import WhichPin, in_order
 from support_exudyn import ClearancePin, Held, Result, SolverSettings, reference_support, simulate
 from support_exudyn.mechanics.postures import eccentric
 from tests.studies.forms import ONLY_WHOLE, Numbers, numbers_of, results
@@ -35,8 +35,15 @@ def numbers(out: Path) -> Numbers:
     return numbers_of(out)
 
 
+def planned(subject: Subject) -> WhichPin:
+    return WhichPin(Options(Path(), subject=subject))
+
+
+PLAN = planned(paper_subject())
+
+
 def alone(numbers: Numbers, name: str, friction: float) -> dict[str, float]:
-    return {pin: numbers[name, which_pin_cases.case_name((pin,), friction)]["value"] for pin in PINS}
+    return {pin: numbers[name, PLAN.case_name((pin,), friction)]["value"] for pin in PINS}
 
 
 @pytest.mark.parametrize("friction", FRICTIONS)
@@ -50,7 +57,7 @@ def test_front_links_pins_move_the_tip_most_and_the_hinge_hardly(numbers: Number
 @pytest.mark.parametrize("axis", ["tip_shift_forward", "tip_shift_up", "canopy_tilt"])
 def test_virtual_work_tells_where_the_worn_support_stands(numbers: Numbers, axis: str, friction: float) -> None:
     for pins in (*((pin,) for pin in PINS), PINS):
-        case = which_pin_cases.case_name(pins, friction)
+        case = PLAN.case_name(pins, friction)
         # first order in clearance over length: 0.2 % alone, 0.6 to 0.8 % for five; the hinge alone, whose
         # journal crosses its bore, 1 % of next to nothing
         assert numbers[f"mean_{axis}", case]["value"] == pytest.approx(
@@ -60,7 +67,7 @@ def test_virtual_work_tells_where_the_worn_support_stands(numbers: Numbers, axis
 
 @pytest.mark.parametrize("friction", FRICTIONS)
 def test_shifts_add_up_and_shaking_does_so_only_without_friction(numbers: Numbers, friction: float) -> None:
-    whole = which_pin_cases.case_name(PINS, friction)
+    whole = PLAN.case_name(PINS, friction)
     shift = sum(alone(numbers, "mean_tip_shift_forward", friction).values())
     assert numbers["mean_tip_shift_forward", whole]["value"] == pytest.approx(shift, rel=0.01)  # 0.5 and 0.8 %
     shaking = np.hypot.reduce(list(alone(numbers, "rms_pin_forces", friction).values()))
@@ -71,12 +78,10 @@ def test_shifts_add_up_and_shaking_does_so_only_without_friction(numbers: Number
 
 
 def test_friction_makes_the_shaking_and_hardly_moves_the_tip(numbers: Numbers) -> None:
-    for friction, other in ((DRY, SMOOTH),):
-        case, smooth = which_pin_cases.case_name(PINS, friction), which_pin_cases.case_name(PINS, other)
-        shift = (numbers["mean_tip_shift_forward", one]["value"] for one in (case, smooth))
-        assert np.ptp(list(shift)) < 0.2  # [mm] of 17
-        shaken, still = (numbers["rms_pin_forces", one]["value"] for one in (case, smooth))
-        assert shaken > 4.0 * still  # 6
+    dry, smooth = (PLAN.case_name(PINS, friction) for friction in FRICTIONS)
+    shifts = [numbers["mean_tip_shift_forward", case]["value"] for case in (dry, smooth)]
+    assert abs(shifts[0] - shifts[1]) < 0.2  # [mm] of 17
+    assert numbers["rms_pin_forces", dry]["value"] > 4.0 * numbers["rms_pin_forces", smooth]["value"]  # 6
 
 
 # --- the closed form ---
@@ -120,13 +125,12 @@ def test_every_pin_may_have_its_own_law_and_clearance(out: Path) -> None:
         ),
         "shield_canopy": pin(1.5e-3, Hertz(stiffness=2.7e10)),
     }
-    plan = which_pin_cases.PinPlan(paper_subject())
-    motion = replace(plan.motion, formulation="exudyn")
     plain = Result.load(out / "runs" / "ideal.h5")
-    step = plain.scenario.record_period
-    scene = replace(motion, pins=own, start="settled", step=step, solver=SolverSettings(impact_steps=16))
-    run = simulate(replace(scene, record_period=step))
-    shift = float(plan.watched.departure(run, plain, "tip.x").mean())
+    scene = PLAN.cases()[PLAN.case_name(PINS, SMOOTH)]
+    period = plain.scenario.record_period
+    settings = SolverSettings(impact_steps=16)
+    run = simulate(replace(scene, pins=own, step=period, record_period=period, solver=settings))
+    shift = float(PLAN.watched.departure(run, plain, "tip.x").mean())
     # as `test_virtual_work_tells_where_the_worn_support_stands`
     assert shift == pytest.approx(mean_shift(own)[clearance.TIP_X], rel=0.01)
     assert shift < -8e-3
@@ -146,28 +150,27 @@ rate_rad_per_s = 20
 def test_every_pin_of_ones_own_machine_is_loose_alone_and_with_all(tmp_path: Path) -> None:
     path = tmp_path / "my_shield.toml"
     path.write_text('machine = "two_leg_shield"\nduration_s = 0.5\n', encoding="utf-8")
-    plan = which_pin_cases.PinPlan(own_subject(path, "front_base"))
-    assert not plan.subject.is_slow  # all its pins are covered without the engine
-    assert not paper_subject().is_slow
+    plan = planned(own_subject(path, "front_base"))
     assert set(plan.pins) == set(PINS)
-    loose = {tuple(case.pins) for case in plan.scenarios.values()}
+    cases = plan.cases()
+    loose = {tuple(case.pins) for case in cases.values()}
     assert loose == {(), plan.pins, *((pin,) for pin in plan.pins)}
     # the contact of all studies of the machine, and ideal pins with the same friction to compare with
     usual = {plan.subject.clearance_pin(1.5, friction) for friction in plan.frictions}
     tight = without_clearance(plan.subject.clearance_pin(1.5, plan.frictions[0]))
-    assert {pin for case in plan.scenarios.values() for pin in case.pins.values()} == usual | {tight}
-    for name, case in plan.scenarios.items():
-        ideal = plan.scenarios[plan.ideal_of(name)]
+    assert {pin for case in cases.values() for pin in case.pins.values()} == usual | {tight}
+    for name, case in cases.items():
+        ideal = cases[plan.ideal_of(name)]
         assert ideal.pins == (dict.fromkeys(case.pins, tight) if "mu_d = 0.25" in name else {})
 
 
 def test_of_a_machine_without_canopy_and_columns_only_forces_and_shaking_are_told(tmp_path: Path) -> None:
     path = tmp_path / "my_crank.toml"
     path.write_text(CRANK, encoding="utf-8")
-    plan = which_pin_cases.PinPlan(own_subject(path, "crank_pin"))
+    plan = planned(own_subject(path, "crank_pin"))
     assert list(plan.rankings) == ["by the forces", "by the shaking"]
-    assert not any("tip" in name for name in plan.measures)
+    assert not any("tip" in name for name in plan.measures(None))
     assert list(plan.forces.values()) == list(plan.pins)
     path.write_text("record_period_ms = 1" + CRANK.replace("0.3", "0.03"), encoding="utf-8")
     with pytest.raises(InputError, match=r"motion from 0 to 0\.03 s, .* allowed: longer than 0\.04 s"):
-        _ = which_pin_cases.PinPlan(own_subject(path, "crank_pin")).scenarios
+        _ = planned(own_subject(path, "crank_pin")).cases()

@@ -18,8 +18,7 @@ from support_exudyn.postprocessing.comparing.measures import CONFIDENCE
 from support_exudyn.postprocessing.figures.selection import CLEARANCE
 from support_exudyn.postprocessing.figures.units import DisplayUnit, amount, readable_change
 from support_exudyn.postprocessing.page.pieces import Sheet
-from support_exudyn.postprocessing.shown_numbers import to_error
-from support_exudyn.simulation.estimate import Estimate
+from support_exudyn.postprocessing.shown_numbers import rounded
 from user_forces.values.value import cleaned
 
 HEADER = ("channel", "measure", "unit", "reference", "other", "difference", "tolerance", "verdict")
@@ -68,7 +67,7 @@ def _cells(channel: ComparedChannel) -> Iterator[tuple[str, ...]]:
         if math.isinf(row.error):
             difference += " ± not known" if difference else ""
         elif not math.isnan(row.error + row.difference):
-            difference = to_error(Estimate(row.difference, row.error, row.unit), unit.scale, MOST_DIGITS)
+            difference = rounded(unit.scale * row.difference, unit.scale * row.error, MOST_DIGITS)
         tolerance = channel.tolerance.text if channel.tolerance is not None and row.verdict else ""
         when = f", at {row.time:.6g} s" if math.isfinite(row.time) else ""
         yield row.channel, f"{row.measure}{when}", unit.name, *sides, difference, tolerance, row.verdict or ""
