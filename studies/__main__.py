@@ -6,6 +6,7 @@ import time
 import traceback
 from collections.abc import Sequence
 from contextlib import nullcontext
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
@@ -18,7 +19,16 @@ from studies.common.subject import chosen_subject
 from studies.common.witness import compiling
 from studies.report import rebuild
 from studies.reporting.arranged import PAGE
-from support_exudyn.commands.command_line import Imports, at_most, carry_out, import_modules, new_app, say, warn
+from support_exudyn.commands.command_line import (
+    Imports,
+    answered,
+    at_most,
+    carry_out,
+    import_modules,
+    new_app,
+    say,
+    warn,
+)
 from support_exudyn.simulation.at_start import EXIT_CODE
 from support_exudyn.sweeps.workers import Workers, worker_pool
 from user_forces.values.value import InputError, short
@@ -67,28 +77,25 @@ def run_studies(
         return 0
     chosen = _chosen(names, all, machine is not None)
     import_modules(imports)
-    subject = chosen_subject(machine, pin)
-    if subject.is_slow:
-        only = "only the Exudyn formulation covers it: minutes, where --list prints seconds"
-        warn(f"--machine {machine}: {only}")
-    options = Options(out, workers, out / KEPT, machines, runs, subject, thorough=all)
+    options = Options(out, workers, out / KEPT, machines, runs, chosen_subject(machine, pin), thorough=all)
     with output_folder(out), worker_pool(workers) as pool:
         return _run(chosen, options, pool)
 
 
 def _list() -> None:
     """Every study with its question; those of the paper's answer first."""
+
+    def line(name: str, seconds: float, question: str, *about: str) -> None:
+        notes = ", ".join(filter(None, about))
+        say(f"{name:20} {_seconds(seconds):>8}  {question}" + (f" ({notes})" if notes else ""))
+
     for name, study in STUDIES.items():
         paper = "the paper's answer" if name in DEFAULT else ""
-        machine = "takes --machine" if study.own_machine else ""
-        about = ", ".join(filter(None, (paper, machine)))
-        say(f"{name:20} {_seconds(study.seconds):>8}  {study.question()}" + (f" ({about})" if about else ""))
-    others = {
-        BENCHMARK: (trade.BENCHMARK_SECONDS, (trade.benchmark.__doc__ or "").partition("?")[0] + "?"),
-        ADAMS: (0.0, "How is the paper's model written for ADAMS?"),
-    }
-    for name, (seconds, question) in others.items():
-        say(f"{name:20} {_seconds(seconds):>8}  {question} (alone, not in the report)")
+        line(name, study.seconds, study.question(), paper, "takes --machine" if study.own_machine else "")
+    alone = "alone, not in the report"
+    question = (trade.benchmark.__doc__ or "").partition("?")[0]
+    line(BENCHMARK, trade.BENCHMARK_SECONDS, f"{question}?", alone)
+    line(ADAMS, 0.0, "How is the paper's model written for ADAMS?", alone)
 
 
 def _chosen(names: Sequence[str], every: bool, has_machine: bool) -> list[str]:
@@ -119,9 +126,10 @@ def _run(names: Sequence[str], options: Options, pool: Workers) -> int:
             spent = _seconds(time.perf_counter() - began)
             left = _seconds(sum(STUDIES[one].seconds for one in names[n:]))
             warn(f"study {n + 1} of {len(names)}: {name}; {spent} so far, about {left} to go")
-            if _code_of(STUDIES[name], options.of_study(name, pool)):
+            chosen = replace(options, out=options.out / name, workers=pool)
+            if _code_of(STUDIES[name], chosen):
                 failed.append(name)
-            elif rebuild(options.out):
+            elif answered(lambda: rebuild(options.out)):
                 failed.append(f"report after {name}")
             else:
                 written = True
@@ -135,12 +143,8 @@ def _run(names: Sequence[str], options: Options, pool: Workers) -> int:
 
 def _code_of(study: type[Study], options: Options) -> int:
     """Run a study and print its answer. Returns the exit code; an interruption ends all studies."""
-
-    def work(out: Path) -> None:
-        say_short(study(options).write(), out)
-
     try:
-        code = work_in_folder(work, options.out)
+        code = work_in_folder(lambda out: say_short(study(options).write(), out), options.out)
     except Exception:  # a bug in one study; the others are still worth having
         traceback.print_exc()
         return 1

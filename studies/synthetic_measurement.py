@@ -7,14 +7,11 @@ filters, with noise, in whole digits, and by a clock that is 0.37 s ahead of the
 none of this.
 """
 
-import sys
-from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
 from studies.common.paper_machine import CLEARANCE_PIN, STEP, clearance_joint, ideal_rise, oil_columns
 from support_exudyn import CubicStep, Scenario, simulate
-from support_exudyn.commands.command_line import carry_out, new_app, say
 from support_exudyn.postprocessing.instruments.station import measure, read_station, write_measured
 
 EXAMPLES = Path(__file__).parent / "examples"
@@ -35,24 +32,6 @@ def measured_scenario() -> Scenario:
     )
 
 
-app = new_app("python -m studies.synthetic_measurement", (__doc__ or "").partition("\n")[0], version_flags=())
-
-
-@app.default
-def measurement(*, out: Path = EXAMPLES / MEASURED) -> None:
-    """Make the measurement.
-
-    Args:
-        out: The CSV.
-    """
-    station = read_station(EXAMPLES / INSTRUMENTS)
-    say(write_measured(measure(simulate(measured_scenario()), station), out))
-
-
-def main(argv: Sequence[str] | None = None) -> int:
-    """Entry of the command; returns the exit code."""
-    return carry_out(app, argv)
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    measured = measure(simulate(measured_scenario()), read_station(EXAMPLES / INSTRUMENTS))
+    print(write_measured(measured, EXAMPLES / MEASURED))

@@ -184,7 +184,7 @@ def panel_figure(subject: Subject, results: Results, curve: Curve, label: str) -
     watched, mu = subject.watched, subject.friction
     edge = 1e-3 * (watched.end - watched.start)  # the jumps at both ends would set the scale
     for axes, size in zip(panels.flat, reversed(SIZES_MM), strict=True):
-        looks = {
+        looks: Looks = {
             case_name(size, mu): {"color": style.WITH_CLEARANCE, "label": f"friction {mu:g}"},
             case_name(size, 0.0): {"color": style.SMOOTH, "label": "no friction"},
             ideal_name(mu): {"color": style.IDEAL, "ls": DOTTED, "label": f"ideal, friction {mu:g}"},

@@ -50,12 +50,11 @@ def run_and_measure(
     """
     results = run_with_errors({name: on_exudyn(case) for name, case in cases.items()}, chosen, HALVED)
     numbers = with_errors(measure(results))
-    settings = {
-        "accuracy": None,
-        "formulation": "compiled",
-        "solver": SolverSettings(tolerance=8.0 * TOLERANCE),
+    solver = SolverSettings(tolerance=8.0 * TOLERANCE)
+    witnesses = {
+        name: replace(case, accuracy=None, formulation="compiled", solver=solver)
+        for name, case in cases.items()
     }
-    witnesses = {name: replace(case, **settings) for name, case in cases.items()}
     if not all(formulation("compiled").covers(case) for case in witnesses.values()):
         return results, numbers
     folder = chosen.kept and chosen.kept.with_name(WITNESSES)

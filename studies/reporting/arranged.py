@@ -39,8 +39,8 @@ END_OF_SENTENCE = re.compile(r"(?<=[.!?])\s+(?=[A-Z])")
 def pages(
     out: Path,
     sections: Sequence[ReportSection],
-    waited: Sequence[str] = (),
-    others: Mapping[str, str] | None = None,
+    waited: Sequence[str],
+    others: Mapping[str, str],
 ) -> dict[str, str]:
     """Both pages, by the name of their file.
 
@@ -53,7 +53,7 @@ def pages(
     Raises OSError if a picture cannot be read.
     """
     arranged = Arrangement(out, sections)
-    words = {"around": around_chapters(sections), "waited": waited, "others": others or {}}
+    words = {"around": around_chapters(sections), "waited": waited, "others": others}
     surroundings = templates(PackageLoader("studies.reporting"))
     found = {}
     for file in (PAGE, APPENDIX):
@@ -84,33 +84,25 @@ class Arrangement:
     def __init__(self, out: Path, sections: Sequence[ReportSection]) -> None:
         self.out, self.sections = out, sections
         self.by_name = {one.chapter.study: one for one in sections}
-        self.figures = {
-            one.chapter.study: [f"{one.chapter.study}/{picture.stem}" for picture in one.chapter.pictures]
-            for one in sections
-        }
-        self.tables = {
-            one.chapter.study: {f"{one.chapter.study}/{sheet.name}": sheet for sheet in one.chapter.sheets}
-            for one in sections
-        }
         chapters = [one.chapter for one in sections]
-        self.leading = next(iter([one for one in chapters if one.tiles] + chapters), None)
-        ahead = self.figures[self.leading.study] if self.leading else []
+        figures = {one.study: [f"{one.study}/{picture.stem}" for picture in one.pictures] for one in chapters}
+        tables = {one.study: [f"{one.study}/{sheet.name}" for sheet in one.sheets] for one in chapters}
+        self.leading = next((one for one in chapters if one.tiles), chapters[0])
+        ahead = figures[self.leading.study]
         self.top = {
             is_machine: next((name for name in ahead if name.endswith(f"/{MACHINE}") == is_machine), "")
             for is_machine in (True, False)
         }
-        self.key_figure = {
-            study: [name for name in names if name not in self.top.values()][:1]
-            for study, names in self.figures.items()
-        }
-        self.places: dict[str, tuple[str, str]] = {}
+        self.figures, self.places = figures, dict[str, tuple[str, str]]()
         self._number(PAGE, "Fig.", filter(None, self.top.values()))
-        for study in self.by_name:
+        self.key_figure: dict[str, list[str]] = {}
+        for study, names in figures.items():
+            self.key_figure[study] = [name for name in names if name not in self.top.values()][:1]
             self._number(PAGE, "Fig.", self.key_figure[study])
-            self._number(PAGE, "Table", list(self.tables[study])[:1])
-        for study in self.by_name:
-            self._number(APPENDIX, "Fig.", self.figures[study])
-            self._number(APPENDIX, "Table", self.tables[study])
+            self._number(PAGE, "Table", tables[study][:1])
+        for study in figures:
+            self._number(APPENDIX, "Fig.", figures[study])
+            self._number(APPENDIX, "Table", tables[study])
         of_all = {
             f"{study}/{stem}": live for study, one in self.by_name.items() for stem, live in one.live.items()
         }
@@ -141,20 +133,18 @@ class Arrangement:
             for n, part in enumerate(parts)
         )
 
-    # --- the first screen ---
-
     @property
     def sentences(self) -> list[tuple[str, str]]:
-        """The effect of clearance, from the leading study; how sure that is, from the claims; or others.
+        """The first screen: the effect of clearance, from the leading study; how sure that is, from the claims.
 
-        Each with its study.
+        Or others; each with its study.
         """
         answers = {
             study: END_OF_SENTENCE.split(one.chapter.answer)
             for study, one in self.by_name.items()
             if one.chapter.answer
         }
-        leading = self.leading.study if self.leading is not None else ""
+        leading = self.leading.study
         ahead = [(text, leading) for text in answers.get(leading, ())[: SENTENCES - 1]]
         others = [(texts[0], name) for name, texts in answers.items() if name != leading]
         others.sort(key=lambda one: not self.by_name[one[1]].chapter.claims)
@@ -175,13 +165,10 @@ class Arrangement:
         kinds = [kind for _, _, kind in self.claims]
         return [(*kind, kinds.count(kind)) for kind in VERDICTS.values() if kind in kinds]
 
-    # --- studies, their figures and tables ---
-
     def shown_figures(self, file: str, study: str) -> list[ShownFigure]:
         """The key figure of a study, on the page, or all others that are not there."""
-        if file == PAGE:
-            return [self.figure(file, name) for name in self.key_figure[study]]
-        return [self.figure(file, name) for name in self.figures[study] if self.places[name][0] == file]
+        rest = [name for name in self.figures[study] if self.places[name][0] == file]
+        return [self.figure(file, name) for name in (self.key_figure[study] if file == PAGE else rest)]
 
     def figure(self, file: str, name: str) -> ShownFigure:
         """A figure on a page. Raises OSError if its picture cannot be read."""
@@ -199,9 +186,9 @@ class Arrangement:
 
     def shown_tables(self, file: str, study: str) -> list[ShownTable]:
         """The first rows of a study's key table, on the page, or all that are not whole there."""
-        folder = self.by_name[study].folder
-        shown: list[ShownTable] = []
-        for name, sheet in self.tables[study].items():
+        section, shown = self.by_name[study], list[ShownTable]()
+        for sheet in section.chapter.sheets:
+            name = f"{study}/{sheet.name}"
             place, label = self.places[name]
             cut = place == PAGE and len(sheet.rows) > MOST_ROWS
             if place != file and not cut:
@@ -212,15 +199,9 @@ class Arrangement:
                 more = Markup(' <a href="{}#{}">All {} rows.</a>')
                 caption += more.format(APPENDIX, anchor(name), len(sheet.rows))
             cells = tuple(tuple(self.linked(file, cell, study) for cell in row) for row in rows)
-            title = self.linked(file, sheet.title, study)
-            shown.append(
-                ShownTable(
-                    sheet=replace(sheet, title=title, rows=cells, caption=caption, name=""),
-                    anchor=anchor(name),
-                    label=f"{label}.",
-                    links=self._files(folder, sheet.name, "csv"),
-                )
-            )
+            title, files = self.linked(file, sheet.title, study), self._files(section.folder, sheet.name, "csv")
+            whole = replace(sheet, title=title, rows=cells, caption=caption, name="")
+            shown.append(ShownTable(whole, anchor(name), f"{label}.", files))
         return shown
 
     def more(self, study: str) -> list[FileLink]:

@@ -145,8 +145,8 @@ class PinCases(Study):
         motion = replace(motion, pins={}, channels=ALL_CHANNELS, accuracy=None, record_period=period, step=STEP)
         start = motion.start if motion.unloaded.cranks else "settled"
         cases = {}
-        for name, (pins, *how) in self.loose.items():
-            pin = subject.clearance_pin(how[1], how[0])
+        for name, (pins, friction, clearance_mm) in self.loose.items():
+            pin = subject.clearance_pin(clearance_mm, friction)
             case = replace(
                 motion, pins=dict.fromkeys(pins, pin), formulation="exudyn", solver=SETTINGS, start=start
             )

@@ -101,7 +101,10 @@ def side_by_side(found: Sequence[Estimate | None], most: int = DIGITS) -> tuple[
     """Unit, and numbers of several runs in it with their errors, of at most so many digits; None: empty."""
     there = [one for one in found if one is not None]
     unit = readable(there[0].unit, max(abs(one.value) for one in there))
-    return unit.name, *("" if one is None else rounded(unit.scale * one.value, unit.scale * one.error, most) for one in found)
+    shown = (
+        "" if one is None else rounded(unit.scale * one.value, unit.scale * one.error, most) for one in found
+    )
+    return unit.name, *shown
 
 
 def rounded(value: float, error: float, most: int = DIGITS) -> str:
@@ -109,7 +112,9 @@ def rounded(value: float, error: float, most: int = DIGITS) -> str:
 
     An error below the last of these digits is not printed: all printed digits are right.
     """
-    if error == 0.0 or not math.isfinite(error):
+    if not math.isfinite(error):
+        return f"{value:.{most}g}"
+    if error == 0.0:
         return f"{value:.9g}" if most == DIGITS else f"{value:.{most}g}"
     if value.is_integer() and error.is_integer() and abs(value) + error < 1e6:
         return f"{value:.0f} ± {error:.0f}"  # counts

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
@@ -15,7 +16,6 @@ import numpy as np
 from support_exudyn.files.series.units import split_title
 from support_exudyn.postprocessing.figures.units import DisplayUnit, readable
 from support_exudyn.postprocessing.shown_numbers import DIGITS, rounded
-from support_exudyn.simulation.estimate import Estimate
 from user_forces.values.value import InputError, short
 
 if TYPE_CHECKING:
@@ -153,10 +153,9 @@ def as_frame(runs: SweepRuns, columns: Sequence[str]) -> pd.DataFrame:
         cells[in_words(name)] = [f"{one:.{DIGITS}g}" if isinstance(one, float) else str(one) for one in items]
     for number in map(runs.number, columns):
         errors = np.full(number.values.size, np.nan) if number.errors is None else number.errors
-        pairs = [Estimate(*pair, number.unit) for pair in zip(number.values, errors, strict=True)]
-        scale = number.display.scale
+        scale, pairs = number.display.scale, zip(number.values.tolist(), errors.tolist(), strict=True)
         cells[number.title] = [
-            "" if np.isnan(one.value) else rounded(scale * one.value, scale * one.error) for one in pairs
+            "" if math.isnan(one) else rounded(scale * one, scale * off) for one, off in pairs
         ]
     return pandas.DataFrame(cells)
 

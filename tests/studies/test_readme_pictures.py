@@ -35,7 +35,7 @@ def test_pictures_are_made(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
     from dataclasses import replace
 
     short = simulate(replace(clearance_rise(1.5, 0.25, 5e-4), duration=0.1))
-    monkeypatch.setattr(readme_pictures, "paper", lambda workers: {figures.DRY: short})
+    monkeypatch.setattr(readme_pictures, "paper", lambda: {figures.DRY: short})
     # in place of 3 to 5 s and of 4 s, which a short run has not
     monkeypatch.setattr(readme_pictures, "MIDDLE", 0.05)
     monkeypatch.setattr(readme_pictures, "RISE", (0.0, 0.1))
