@@ -7,7 +7,7 @@ generator give the same scene.
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal, NamedTuple, TypeVar
+from typing import Any, Literal, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -75,7 +75,7 @@ class Draw:
         low, high = span.sensible if self.sensible else span[:2]
         return low + self.even(0.0, 1.0) * (high - low) if span.even else self.log(low, high)
 
-    def sizes(self, spans: Mapping[str, Span]) -> dict[str, float]:
+    def sizes(self, spans: Mapping[str, Span]) -> dict[str, Any]:
         """Numbers of several ranges, by their names."""
         return {name: self.size(span) for name, span in spans.items()}
 
@@ -167,7 +167,7 @@ def drawn_point(of: Draw) -> Point:
     if of.chance(WITHOUT_FRICTION):
         sizes["mu"] = 0.0
     return Point(
-        **sizes,  # type: ignore[arg-type]
+        **sizes,
         static_speed_m_s=static if dynamic > static and of.chance(0.9) else 0.0,
         dynamic_speed_m_s=dynamic,
         law=of.pick(LAWS),

@@ -153,8 +153,10 @@ class Extremes(Study):
             value, (low, high) = share.held / share.number, share.interval
             made.append(Number(name, case, value, "1", max(value - low, high - value)))
         errors = [one.error for one in of_groups(self.judged, RANDOM) if one.outcome == GOOD]
-        low, high = quantile_test(errors, p=0.5).confidence_interval(SURE) if errors else (math.nan, math.nan)
-        middle = float(np.median(errors)) if errors else math.nan
+        middle = low = high = math.nan
+        if errors:
+            middle = float(np.median(errors))
+            low, high = np.array(quantile_test(errors, p=0.5).confidence_interval(SURE))
         if (of_error := max(middle - low, high - middle)) >= 0.0:  # none of too few
             made.append(Number("median_reported_error", "drawn, good", middle, "1", float(of_error)))
         good = [verdict for _, verdict in self.judged if verdict.outcome == GOOD]

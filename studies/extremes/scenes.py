@@ -57,7 +57,7 @@ def at_steps(point: Point, longest: float = LONGEST, **fields: Any) -> Scenario:
     """The support with clearance in the rear pin, at the point's steps and up to so long [s]."""
     period = max(1e-3, point.step_s)
     wanted = max(SHORTEST, min(longest, STEPS * point.step_s))
-    base = {
+    base: dict[str, Any] = {
         "machine": reference_support(), "pins": {PIN: point.pin}, "step": point.step_s,
         "record_period": period, "duration": period * max(1, round(wanted / period)),
         "solver": SolverSettings(
@@ -113,8 +113,8 @@ def corner(point: Point, i: int, of: Draw) -> Scenario:
 def with_solver(point: Point, i: int, of: Draw) -> Scenario:
     """The fall with other settings of the solver, by turns on columns of oil."""
     scene = fallen(replace(point, spectral_radius=(0.0, 0.5, 1.0, point.spectral_radius)[i % 4]))
-    newton, growth = "full" if i % 2 else "modified", (1.0, 8.0, 64.0)[i % 3]
-    solver = replace(scene.solver, newton=newton, growth=growth)
+    growth = (1.0, 8.0, 64.0)[i % 3]
+    solver = replace(scene.solver, newton="full" if i % 2 else "modified", growth=growth)
     return replace(scene, solver=solver, actuators=paper_machine.oil_columns() if i % 2 else {})
 
 

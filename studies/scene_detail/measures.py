@@ -133,6 +133,12 @@ def _of_unequal(scene: DetailScene, result: Result) -> dict[str, tuple[str, Get]
     def largest(*channels: str, scale: float = 1.0) -> Get:
         return lambda run: max(scale * float(np.abs(run[channel]).max()) for channel in channels)
 
+    def last(channel: str) -> Get:
+        return lambda run: float(run[channel][-1])
+
+    def deepest(channel: str) -> Get:
+        return lambda run: float(run[channel].max())
+
     moment, sides = f"pin.{REAR}.moment", ("left", "right")
     columns = {side: f"front_column_{side}.force" for side in sides}
     measures: dict[str, tuple[str, Get]] = {
@@ -141,18 +147,14 @@ def _of_unequal(scene: DetailScene, result: Result) -> dict[str, tuple[str, Get]
         "largest_front_column_force": ("N", largest(*columns.values())),
     }
     for side, column in columns.items():
-        measures[f"{side}_front_column_force_at_the_end"] = (
-            "N",
-            lambda run, column=column: float(run[column][-1]),
-        )
+        measures[f"{side}_front_column_force_at_the_end"] = "N", last(column)
     if result.channels[f"{moment}_x"].is_determined:  # not of ideal pins, which share it at will
         measures["largest_moment"] = (
             "N m",
             lambda run: float(np.hypot(run[f"{moment}_x"], run[f"{moment}_y"]).max()),
         )
     for side in sides if REAR in scene.scenario.clearance_pins else ():
-        depth = f"pin.{REAR}.{side}_depth"
-        measures[f"largest_{side}_depth"] = "m", lambda run, depth=depth: float(run[depth].max())
+        measures[f"largest_{side}_depth"] = "m", deepest(f"pin.{REAR}.{side}_depth")
     return measures
 
 
