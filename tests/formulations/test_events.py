@@ -178,6 +178,48 @@ def cut(push: Callable[[float], float], depth: Polynomial, h: float = 0.125, sta
     return found_in_general(at, start, h)
 
 
+SOME = (0.3, 0.5, 0.7)
+DEEP = Polynomial([5e-4, -1e-3])  # on its way out, still closed after a tenth of a second
+PARTS_EARLY = Polynomial([5e-5, -1e-3])  # parts at 0.05 s
+
+
+CUTS: dict[str, tuple[Callable[[float], float], str]] = {
+    "tension begins": (lambda t: 0.1 - t, "cut"),
+    "tension ends": (lambda t: t - 0.1, "cut"),
+    "tension begins later": (lambda t: 0.2 - t, NOTHING),
+    **{
+        f"tension within the step at {m}": (lambda t, m=m: 0.4 * ((8.0 * t - m) ** 2 - 0.035), UNCLEAR)
+        for m in SOME
+    },
+    **{
+        f"none within the step at {m}": (lambda t, m=m: -0.4 * ((8.0 * t - m) ** 2 - 0.035), UNCLEAR)
+        for m in SOME
+    },
+    "nearly tension": (lambda t: 0.4 * ((8.0 * t - 0.5) ** 2 + 0.04), NOTHING),
+    "far from a cut nothing is looked at": (lambda t: 0.6 if t in (0.0, 0.125) else -1.0, NOTHING),
+    # where a cut is met a step begins on neither side
+    "just met from below": (lambda t: -1e-12 + t, NOTHING),
+    "just met from above": (lambda t: 1e-12 - t, NOTHING),
+}
+
+
+@pytest.mark.parametrize("case", CUTS)
+def test_cuts_within_a_step_are_seen(case: str) -> None:
+    push, what = CUTS[case]
+    event, at = cut(push, DEEP)
+    assert event == what
+    assert at == pytest.approx(0.1, rel=1e-12) if what == "cut" else at >= 0.0  # straight lines
+
+
+def test_a_cut_and_a_parting_in_one_step_are_told_apart_by_shorter_ones() -> None:
+    assert cut(lambda t: 0.07 - t, PARTS_EARLY)[0] == UNCLEAR
+    assert cut(lambda t: 0.04 - t, PARTS_EARLY, h=0.045) == ("cut", pytest.approx(0.04, rel=1e-12))
+    assert cut(lambda t: 0.07 - t, PARTS_EARLY, h=0.06) == (SEPARATION, pytest.approx(0.05, rel=1e-12))
+    # in so short a step the separation counts
+    tiny = Polynomial([5e-14, -1e-3])
+    assert cut(lambda t: 2e-11 - t, tiny, h=1e-10)[0] == SEPARATION
+
+
 # --- at the ends of steps ---
 
 

@@ -174,6 +174,20 @@ def test_a_box_tips_when_its_diagonal_is_upright(length: float, height: float) -
     assert found.angles["sideways"] == pytest.approx(math.atan2(1.5 * length, height))
 
 
+@given(x=st.floats(-1.0, 2.0), height=st.floats(0.1, 3.0), by=st.floats(0.01, 0.2))
+def test_on_a_floor_inclined_by_more_its_centre_is_beyond_the_edge(x: float, height: float, by: float) -> None:
+    linkage = Linkage(bodies={"one": Body(mass=3.0, inertia=1.0, centre=(x, height))})
+    base = BaseFrame(rear=0.0, front=1.0, width=1.0, mass=1.0, centre=(0.5, 0.1))
+    found = tipping_of(linkage, base)
+    for angle, sign, beyond in (
+        (found.angles["forward"] + by, -1.0, lambda over: over > 1.0),
+        (-found.angles["rearward"] - by, -1.0, lambda over: over < 0.0),
+    ):
+        # where the line of gravity meets the floor
+        over = found.centre[0] - sign * found.centre[1] * math.tan(angle)
+        assert beyond(over) or abs(angle) > 0.5 * math.pi
+
+
 def test_a_floor_above_the_centre_is_refused() -> None:
     linkage, base = box(1.0, 1.0)
     with pytest.raises(InputError, match=r"centre of mass is 0\.5 m high; allowed: a floor below it"):

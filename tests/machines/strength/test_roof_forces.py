@@ -82,9 +82,6 @@ def test_a_leg_under_a_beam(
     assert hinge[0] == pytest.approx(-push * up * lean, abs=size)
 
 
-# --- virtual work, by finite differences of the posture ---
-
-
 # --- equilibrium, body by body ---
 
 
