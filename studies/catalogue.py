@@ -19,7 +19,7 @@ from studies.which_pin import run as which_pin
 _IN_ORDER: tuple[type[Study], ...] = (
     clearance.ClearanceInfluence, clearance.ClearanceSize, drive_mode.DriveMode, valve_modes.ValveModes,
     claims.Claims, which_pin.WhichPin, scene_detail.SceneDetailStudy, contact_laws.ContactLaws,
-    slider_crank.SliderCrank, outside.Outside, stability.Stability, blow.BlowStudy,
+    slider_crank.SliderCrankStudy, outside.Outside, stability.Stability, blow.BlowStudy,
     slack_stiffness.SlackStiffness, trade.SpeedAccuracy, extremes.Extremes,
 )  # fmt: skip
 STUDIES = {study.name: study for study in _IN_ORDER}

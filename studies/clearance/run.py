@@ -27,7 +27,7 @@ from studies.common.paper_machine import (
     ideal_name,
     ideal_of,
 )
-from studies.common.rise import DEGREES, Count
+from studies.common.rise import DEGREES, WholeNumber
 from studies.common.runs import impacts
 from studies.common.study import Study
 from studies.common.subject import Subject
@@ -144,7 +144,7 @@ class ClearanceInfluence(Study):
                 "rms_pin_force_departure": ("N", watched.shift_of(rise.FORCE, power=2.0)),
                 "rms_angular_velocity_departure": ("deg/s", watched.shift_of(rise.SPEED, DEGREES, power=2.0)),
                 "mean_tip_shift": ("mm", watched.shift_of("tip.x", 1e3)),
-                "impacts": ("1", Count(lambda run: len(run.onsets[CLEARANCE_PIN]))),
+                "impacts": ("1", WholeNumber(lambda run: len(run.onsets[CLEARANCE_PIN]))),
             }
             for n in range(min(3, impacts(run, CLEARANCE_PIN))):
                 found[f"onset_{n + 1}_time"] = ("s", rise.onset(CLEARANCE_PIN, n, "time"))

@@ -8,7 +8,7 @@ from typing import Any, cast
 import numpy as np
 import numpy.typing as npt
 
-from studies.common.rise import Count, Crest, Measure, Versus
+from studies.common.rise import Crest, Measure, Versus, WholeNumber
 from studies.common.runs import halvings
 from support_exudyn import Result
 from support_exudyn.postprocessing.page.pieces import Sheet
@@ -37,7 +37,7 @@ class Number:
 
 
 Found = Mapping[tuple[str, str], Number]  # numbers by name and case
-Measured = Measure | Versus | Count
+Measured = Measure | Versus | WholeNumber
 Measures = Mapping[str, tuple[str, Measured]]  # unit and measure, by name
 
 
@@ -77,7 +77,7 @@ def with_error(measure: Measured, run: Result, ideal: Result | None = None) -> t
     The error of a count is how far its coarser ones are away, for counts do not converge. Differences of a run
     from itself are 0, ratios 1, without any error. ideal: the run with the ideal pin, for measures of both.
     """
-    if isinstance(measure, Count):
+    if isinstance(measure, WholeNumber):
         counts = [measure.get(one) for one in halvings(run)]
         return float(counts[-1]), float(max(abs(counts[-1] - one) for one in counts))
     if isinstance(measure, Versus):

@@ -38,7 +38,7 @@ class Versus:
 
 
 @dataclass(frozen=True)
-class Count:
+class WholeNumber:
     """A measure of a run that is a whole number."""
 
     get: Callable[[Result], int]

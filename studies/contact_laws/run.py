@@ -13,7 +13,7 @@ from typing import ClassVar
 from matplotlib.figure import Figure
 
 from studies.common.numbers import Found, Measures, Number, by_case, cell, measured_all
-from studies.common.rise import Count, Watched
+from studies.common.rise import Watched, WholeNumber
 from studies.common.runs import run_cases, run_with_errors
 from studies.common.study import Study
 from studies.common.words import text_table
@@ -65,8 +65,8 @@ def rise_numbers(watched: Watched, results: Mapping[str, Result]) -> list[Number
         PEAK: ("N", lambda run: float(run.largest_force[watched.pin])),
         "energy_dissipated": ("J", lambda run: run.dissipated),
         "energy_error": ("J", lambda run: run.energy_error),
-        "impacts": ("1", Count(lambda run: len(run.onsets[watched.pin]))),
-        "clamped_steps": ("1", Count(lambda run: run.counts.clamped_steps)),
+        "impacts": ("1", WholeNumber(lambda run: len(run.onsets[watched.pin]))),
+        "clamped_steps": ("1", WholeNumber(lambda run: run.counts.clamped_steps)),
     }
     return measured_all(results, measures)
 

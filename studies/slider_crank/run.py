@@ -125,7 +125,7 @@ def _over_angle(axes: Axes, result: Result, colour: str, label: str) -> None:
 # --- the study ---
 
 
-class SliderCrank(Study):
+class SliderCrankStudy(Study):
     """Does the program agree with others on the benchmark of a slider-crank with a loose slider pin?"""
 
     name, seconds = "slider_crank", 18.0

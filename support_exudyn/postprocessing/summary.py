@@ -321,18 +321,24 @@ def unmet(result: Result) -> str:
 
 
 def _formulation(result: Result) -> str:
-    """The formulation that ran; if that was left to the program, also which ones do not cover the scene."""
-    ran = formulation(result.scenario.formulation).name
+    """The formulation that ran; if the program chose it, also which preferred ones do not cover the scene.
+
+    Without an accuracy Exudyn is preferred, to an accuracy the cheapest.
+    """
+    ran = formulation(result.scenario.formulation)
     if result.provenance.get(FORMULATION_ASKED, result.scenario.formulation) != "auto":
-        return ran
+        return ran.name
     reasons = ["auto"]
-    for other in (one for one in CHEAPEST_FIRST if one.name != ran):
+    preferred = [one for one in CHEAPEST_FIRST if one.cost < ran.cost]
+    if result.goal is None:
+        preferred = [one for one in CHEAPEST_FIRST if one.cost > ran.cost]
+    for other in preferred:
         try:
             other.check(dataclasses.replace(result.scenario, formulation="auto"))
         except InputError as error:  # noqa: PERF203
             reason = " ".join(str(error).split()).partition("; allowed")[0].partition(": not covered")[0]
             reasons.append(f"{other.name} does not cover {reason}")
-    return f"{ran} ({'; '.join(reasons)})"
+    return f"{ran.name} ({'; '.join(reasons)})"
 
 
 def words(item: Any) -> str:

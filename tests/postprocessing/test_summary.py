@@ -48,8 +48,8 @@ def test_numbers_are_of_the_piece_that_was_asked_for() -> None:
 @pytest.mark.parametrize(
     ("found", "row"),
     [
-        (Estimate(12345.6, 78.0, "N"), ("kN", "12.35 ± 0.08")),
-        (Estimate(1.5e-3, 2e-9, "m"), ("mm", "1.5")),
+        (Estimate(12345.6, 78.0, "N"), ("kN", "12.346 ± 0.078")),
+        (Estimate(1.5e-3, 2e-9, "m"), ("mm", "1.50000")),
         (Estimate(20.0, 300.0, "N"), ("N", "20 ± 300")),
         (Estimate(2.0, 0.0, "N"), ("N", "2")),
         (Estimate(2.0, math.inf, "N"), ("N", "2")),

@@ -24,7 +24,7 @@ def numbers(tmp_path_factory: pytest.TempPathFactory) -> Numbers:
         whole = study.scenarios()
         part = {name: replace(case, duration=case.duration / 9.0) for name, case in whole.items()}  # 1.33 ms
         patch.setattr(study, "scenarios", lambda: part)
-        study.SliderCrank(Options(out, at_once())).write()
+        study.SliderCrankStudy(Options(out, at_once())).write()
     with style.look():
         runs = {case: Result.load(out / "runs" / f"{file_name(case)}.h5") for case in part}
         figure_checks.check(study.figure(runs))

@@ -19,7 +19,7 @@ from studies.common import rise
 from studies.common import runs as runs_module
 from studies.common.numbers import Number, against, error_of_records, measured_all, with_error
 from studies.common.options import Options
-from studies.common.rise import Count, Series, Versus
+from studies.common.rise import Series, Versus, WholeNumber
 from studies.common.runs import halvings, run_cases, run_with_errors
 from studies.common.subject import own_subject
 from support_exudyn import CubicStep, IdealPin, Result, Scenario, Steady, ravn_slider_crank
@@ -197,7 +197,7 @@ def test_a_number_has_the_errors_of_steps_and_of_records(runs: dict[str, Result]
     *_, before, last = map(moment, halvings(run))
     assert found.numerical_error > abs(last - before) / 3.0  # which is the error of second order itself
     first, _, last_steps = (one.counts.steps for one in halvings(run))
-    assert with_error(Count(lambda run: run.counts.steps), run) == (last_steps, last_steps - first)
+    assert with_error(WholeNumber(lambda run: run.counts.steps), run) == (last_steps, last_steps - first)
 
 
 def test_errors_of_both_runs_add_up_in_a_comparison(runs: dict[str, Result]) -> None:

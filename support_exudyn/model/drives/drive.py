@@ -37,9 +37,9 @@ class Drive(Value, ABC):
         return 0.0
 
     @property
+    @abstractmethod
     def breaks(self) -> tuple[float, ...]:
-        """Times [s] at which a derivative jumps; none by default."""
-        return ()
+        """Times [s] at which a derivative jumps."""
 
     @abstractmethod
     def span(self, duration: float) -> tuple[float, float]:
@@ -57,6 +57,11 @@ class Held(Drive):
     def speed(self, t: float) -> float:
         """The speed is 0 m/s at any time."""
         return 0.0
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """There are no breaks."""
+        return ()
 
     def span(self, duration: float) -> tuple[float, float]:
         """The span is (0, 0) m."""
@@ -167,6 +172,11 @@ class Steady(Drive):
     def initial_speed(self) -> float:
         """rate [rad/s]."""
         return self.rate
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """There are no breaks: the crank has been turning for long."""
+        return ()
 
     def span(self, duration: float) -> tuple[float, float]:
         """The span from 0 to rate times duration [rad], in order."""

@@ -79,9 +79,15 @@ class TableDrive(Drive):
 
     def speed(self, t: float) -> float:
         """Speed [m/s] at time t [s]; at a jump the value before it."""
-        begin, length, _, a1, a2, a3 = self.cubic(t)
-        x = (t - begin) / length
-        return (a1 + x * (2.0 * a2 + 3.0 * a3 * x)) / length
+        n = self._piece(t)
+        if n in (0, len(self.times)):
+            return 0.0
+        if self.between == "linear":
+            return self._secants[n - 1]
+        begin, length, low, slope, _, _ = self.cubic(t)
+        x, rise = (t - begin) / length, self.extensions[n] - low
+        bent = slope / length * (1.0 - x) * (1.0 - 3.0 * x) + self._slopes[n] * x * (3.0 * x - 2.0)
+        return rise * 6.0 * x * (1.0 - x) / length + bent
 
     def speed_jump(self, t: float) -> float:
         """Jump of the speed at a time [s], in m/s; 0 everywhere if the points are joined smoothly."""

@@ -138,7 +138,10 @@ def closeness(
         missing = [name for name in its if name not in mine]
         if missing and (is_named or len(missing) == len(its)):
             known = meant(missing[0], list(mine))
-            raise InputError(f"{missing[0]}: the result has no such channel or number with an error; {known}")
+            why = "the result has no such channel or number with an error"
+            raise InputError(
+                f"{missing[0]}: {why}; {known}; allowed: names of the result's channels and numbers"
+            )
         names = [name for name in its if name in mine]
         names = matching(names, channels) if channels else names
     else:
