@@ -71,7 +71,7 @@ FORMULATIONS = {
     one.name: one
     for one in (
         Formulation("exudyn", f"{HERE}.exudyn.run", cost=2, safety=3.0),
-        Formulation("compiled", f"{HERE}.compiled", cost=1, safety=2.5),
+        Formulation("compiled", f"{HERE}.compiled", cost=1, safety=2.3),
     )
 }
 CHEAPEST_FIRST = sorted(FORMULATIONS.values(), key=lambda one: one.cost)

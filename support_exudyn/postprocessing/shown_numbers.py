@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping, Sequence
 
 from support_exudyn.postprocessing.figures.units import readable
-from support_exudyn.simulation.estimate import Estimate
+from support_exudyn.simulation.estimate import MOST_DIGITS, Estimate
 from support_exudyn.simulation.impulses import NO_PEAK
 from support_exudyn.simulation.reported_numbers import FORCE, measures
 from support_exudyn.simulation.result import Result
@@ -107,6 +107,16 @@ def side_by_side(found: Sequence[Estimate | None], most: int = DIGITS) -> tuple[
     return unit.name, *shown
 
 
+def with_error(found: Estimate) -> tuple[str, str]:
+    """A number with its error to two digits, however small, and the unit of both."""
+    unit = readable(found.unit, abs(found.value))
+    value, error = unit.scale * found.value, unit.scale * found.error
+    if math.isfinite(error) and error > 0.0:
+        return rounded(value, error, MOST_DIGITS), unit.name
+    unknown = "" if math.isnan(error) else " ± not known" if error else " ± 0"
+    return f"{value:.{DIGITS}g}{unknown}", unit.name
+
+
 def rounded(value: float, error: float, most: int = DIGITS) -> str:
     """A number with its error, both to two digits of the error, at most `most` digits of the number.
 
@@ -127,6 +137,6 @@ def rounded(value: float, error: float, most: int = DIGITS) -> str:
 
 def _plain(value: float, digits: int) -> str:
     """A number with so many decimals; below 0 that many zeros end it. Small numbers have a power of ten."""
-    if digits > 8:
+    if digits > 8 and abs(value) < 1e-3:
         return f"{value:.{max(0, digits + math.floor(math.log10(abs(value))))}e}" if value else "0"
     return f"{round(value, digits):.{max(0, digits)}f}"

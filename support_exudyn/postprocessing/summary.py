@@ -27,7 +27,7 @@ from support_exudyn.postprocessing.shown_numbers import (
     label,
     numbers,
     shown,
-    side_by_side,
+    with_error,
 )
 from support_exudyn.scenario.pin_stability import PinOutlook, pin_outlooks
 from support_exudyn.scenario.scenario import Scenario
@@ -72,11 +72,9 @@ def numbers_table(result: Result, ends: tuple[float, float] = WHOLE, only: Seque
     """
     every = numbers(result, *ends)
     found = {name: every[name] for name in only} if only else shown([result], [every], *ends)[0]
-    rows: list[Row] = [(label(name), *side_by_side([number])[::-1]) for name, number in found.items()]
+    rows: list[Row] = [(label(name), *with_error(number)) for name, number in found.items()]
     known = (
-        "± estimated numerical error; without one it is below the last digit, or not known"
-        if result.coarser
-        else "numerical errors not known: no accuracy was asked"
+        "± estimated numerical error" if result.coarser else "numerical errors not known: no accuracy was asked"
     )
     title = f"{'numbers' if only else 'what came out'}, {selection.window_text(result, *ends)} ({known})"
     return ResultTable(title, ("number", ">value", "unit"), rows)
@@ -161,7 +159,7 @@ def in_short(result: Result) -> list[Row]:
     named = ("mean force", f"{own}.force.mean"), ("peak force", peak), ("fluctuation (RMS)", f"{own}.force.std")
     rows = []
     for what, name in named:
-        unit, value = side_by_side([every[name]]) if name in every else ("", "not recorded")
+        value, unit = with_error(every[name]) if name in every else ("not recorded", "")
         rows.append((f"{own}: {what}", f"{value} {unit}".rstrip()))
     if len(joints) > 1:
         others = f"; smaller forces in {', '.join(joints[1:])}"

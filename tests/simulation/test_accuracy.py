@@ -302,18 +302,17 @@ def test_estimates_cover_the_true_errors_without_much_overstatement(
     everything = figures(checked)
     print("all", everything)
     assert everything["numbers"] > (10_000 if request.node.callspec.params["checked"] == 1 else 1_500)
-    # what is promised; measured: 0.9954
+    # what is promised; measured: 0.995
     assert everything["covered"] >= 0.99
-    # as far as runs are not as close as rounding, which is added to every estimate; measured: 13.3. Extremes,
-    # which steps of other lengths meet at other points, are overstated by 19 to 33, and so are the numbers of
-    # runs at the loosest tolerance: with narrower errors 2 of 100 of these were not covered
-    more = 1.0 if request.node.callspec.params["checked"] == 1 else 1.4  # samples scatter from 13 to 19
-    assert figures([case for case in checked if case.goal > GOALS[-1]])["overstated"] <= 14.0 * more
-    assert everything["overstated"] <= 14.0 * more  # measured: 13.1
+    # as far as runs are not as close as rounding, which is added to every estimate; measured: 11.8. Extremes,
+    # which steps of other lengths meet at other points, are overstated by 19 to 33: 99 of 100 are covered
+    more = 1.0 if request.node.callspec.params["checked"] == 1 else 1.25  # samples scatter from 11.5 to 16.2
+    assert figures([case for case in checked if case.goal > GOALS[-1]])["overstated"] <= 13.0 * more
+    assert everything["overstated"] <= 14.0 * more  # measured: 12.0
 
 
 def test_no_number_is_off_by_more_than_five_errors(checked: list[Case]) -> None:
-    assert figures(checked)["worst"] < 5.0  # measured: 4.2
+    assert figures(checked)["worst"] < 5.0  # measured: 4.6
 
 
 def test_a_goal_that_is_said_to_be_met_is_met(checked: list[Case]) -> None:
