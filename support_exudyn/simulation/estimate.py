@@ -25,7 +25,7 @@ the first step. Runs then agree in that touch but for rounding. Its error is wha
 by: the tolerance times the clearance over the impact's speed, and times that speed.
 
 Measured: of 12 920 numbers of `tests/simulation/test_accuracy.py` 99.5 % are covered, the worst true error is
-4.6 times the estimated one, and estimates are 12 times as large in the median. The command
+4.4 times the estimated one, and estimates are 12 times as large in the median. The command
 `tests/simulation/test_coverage.py` measures drawn scenes; the page `accuracy.md` has its results.
 """
 

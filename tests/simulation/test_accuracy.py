@@ -308,11 +308,11 @@ def test_estimates_cover_the_true_errors_without_much_overstatement(
     # which steps of other lengths meet at other points, are overstated by 19 to 33: 99 of 100 are covered
     more = 1.0 if request.node.callspec.params["checked"] == 1 else 1.25  # samples scatter from 11.5 to 16.2
     assert figures([case for case in checked if case.goal > GOALS[-1]])["overstated"] <= 13.0 * more
-    assert everything["overstated"] <= 14.0 * more  # measured: 12.0
+    assert everything["overstated"] <= 14.0 * more  # measured: 12.1
 
 
 def test_no_number_is_off_by_more_than_five_errors(checked: list[Case]) -> None:
-    assert figures(checked)["worst"] < 5.0  # measured: 4.6
+    assert figures(checked)["worst"] < 5.0  # measured: 4.4
 
 
 def test_a_goal_that_is_said_to_be_met_is_met(checked: list[Case]) -> None:
