@@ -28,6 +28,7 @@ from support_exudyn.model.linkage import GROUND
 from user_forces.values.units import Metres
 from user_forces.values.value import InputError, Vector2, value
 
+MOST_REMEMBERED = 64
 STRIDE = 0.02  # [m] from one level posture to the next
 
 
@@ -59,20 +60,25 @@ class TwoLegShield(FourBarShield):
         """The drive of the ram that keeps the canopy level while the leg is driven."""
         if name != "ram":
             return super().coupled_drive(name, lead, duration)
-        if (lead, duration) not in self._known:
-            held, size = lead.span(duration) == (0.0, 0.0), math.hypot(*self.hinge)
-            drive = Held() if held else following(lead, duration, self.level_ram, size)
-            self._known[lead, duration] = drive
-        return self._known[lead, duration]
+        for key, found in self._known:  # no mapping: a drive of one's own may have a field without a hash
+            if key == (lead, duration):
+                return found
+        low, high = lead.span(duration)
+        size = math.hypot(*self.hinge)
+        drive: Drive = Held() if low == high == 0.0 else following(lead, duration, self.level_ram, size)
+        if len(self._known) == MOST_REMEMBERED:
+            self._known.clear()
+        self._known.append(((lead, duration), drive))
+        return drive
 
     def __getstate__(self) -> dict[str, Any]:
         """What is sent to another process: all but the remembered drives."""
         return {name: item for name, item in vars(self).items() if name != "_known"}
 
     @cached_property
-    def _known(self) -> dict[tuple[Drive, float], Drive]:
+    def _known(self) -> list[tuple[tuple[Drive, float], Drive]]:
         """Drives of the ram by that of the leg and for how long; scenarios ask again and again."""
-        return {}
+        return []
 
     def level_ram(self, leg: np.ndarray) -> np.ndarray:
         """Extensions of the ram [m] that keep the canopy level, for extensions of the leg [m], shape (n,).

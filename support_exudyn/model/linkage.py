@@ -343,10 +343,10 @@ class Linkage(Value):
         moving = [(f"cranks.{name}", one.body) for name, one in self.cranks.items()]
         moving += [(f"slides.{name}", one.body) for name, one in self.slides.items()]
         moving += [(f"gears.{name}", wheel) for (_, name), pair in wheels.items() for wheel in pair]
-        check_bodies(used, self.bodies)
         for where, body in moving:
             if body not in self.bodies:
                 raise ValueError(f"{where} = {body!r}: no such moving body; {nearest(body, self.bodies)}")
+        check_bodies(used, self.bodies)
         for (part, name), (one, other) in pairs.items():
             if one == other and part != "actuators":
                 raise ValueError(f"{part}.{name} = {one!r} twice: allowed: two different bodies")

@@ -2,12 +2,20 @@
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from support_exudyn.machines.check.drive_way import TURN, DriveWay, Moved, WayPoint, way_of
-from support_exudyn.machines.check.freedoms import SHARED, Movement, floating, listed, movements, repeated
+from support_exudyn.machines.check.freedoms import (
+    SHARED,
+    Movement,
+    RepeatedConditions,
+    floating,
+    listed,
+    movements,
+    repeated,
+)
 from support_exudyn.machines.check.joint_warnings import of_joints
 from support_exudyn.machines.check.report import CheckReport, CheckTable
 from support_exudyn.machines.check.statics import mobility, statics
@@ -22,6 +30,7 @@ from support_exudyn.machines.four_bar_shield import FourBarShield
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.mechanics.closing import Conditions, beside
 from support_exudyn.model.linkage import GROUND, Linkage
+from support_exudyn.model.loads.load import ActingLoad
 from user_forces.values.value import InputError
 
 STEPS, TOLD = 180, 12  # postures to each end of a way, and rows of its table less one
@@ -43,69 +52,51 @@ def check_machine(data: MachineData, stroke: float | None = None) -> CheckReport
 
     Raises InputError if a stroke is given where no actuator alone, or the columns of a support, are driven.
     """
-    machine = data.machine
-    linkage, loads = machine.linkage(), machine.loads
-    support = machine if isinstance(machine, FourBarShield) else None
+    linkage, loads = data.machine.linkage(), data.machine.loads
+    support = data.machine if isinstance(data.machine, FourBarShield) else None
     driven = [(name,) for name in linkage.driven] if support is None else [support.alike]
     if stroke is not None and not (len(driven) == 1 and driven[0][0] in linkage.actuators):
         raise InputError(f"stroke = {stroke} m: no single actuator drives this machine; allowed: none")
-    conditions = Conditions(linkage if support is None else support.led_linkage())
-    start = conditions.still
-    loose = movements(conditions, start)
-    aside = beside(conditions, [one.rates * conditions.arms for one in loose])
-    singular = len(movements(conditions, aside)) < len(loose)
-    again = repeated(conditions, aside if singular else start)
     used = stroke or data.stroke or (support.usual_stroke if support else None)
-    steps = STEPS_OF_SUPPORTS if support else STEPS_OF_SEVERAL if len(driven) > 1 else STEPS
-    farther, count = (FARTHER * support.shortest_column, TOLD_OF_SUPPORTS) if support else (0.0, TOLD)
-    ways = [
-        way_of(conditions, linkage, one, _goal(linkage, one[0], used), steps, loads, farther)
-        for one in driven
-        if not loose and not any(repeat.driven for repeat in again)
-    ]
-    at_rest = Moved(0.0, start, statics(linkage, start, loads=loads))
-    moved = [one for way in ways for one in way.moved] or ([] if loose else [at_rest])
+    conditions = Conditions(linkage if support is None else support.led_linkage())
+    freedoms = _freedoms_at_start(conditions)
+    ways = []
+    if freedoms.can_be_driven:
+        steps = STEPS_OF_SUPPORTS if support else STEPS_OF_SEVERAL if len(driven) > 1 else STEPS
+        farther = FARTHER * support.shortest_column if support else 0.0
+        ways = [
+            way_of(conditions, linkage, one, _goal(linkage, one[0], used), steps, loads, farther)
+            for one in driven
+        ]
+    start = Moved(0.0, conditions.still, statics(linkage, conditions.still, loads=loads))
+    balanced = [] if freedoms.loose else [start]
+    moved = [one for way in ways for one in way.moved] or balanced
     transmission = {way.drive: list(transmission_angles(conditions, way)) for way in ways}
     found = support_findings(data, support, ways[0]) if support and ways else Findings()
-    freedom, gaps = mobility(linkage), _gaps(conditions, linkage)
 
-    facts = [freedom.said()]
-    if gaps:
-        facts.append(f"closure at the start: pins within {1e3 * max(gaps.values()):.1e} mm")
-    warnings = [
-        f"pins.{name}: its two points are {1e3 * gap:.3g} mm apart at the start"
-        for name, gap in gaps.items()
-        if gap > OPEN * conditions.size
-    ]
-    warnings += [one.said() + ("" if one.driven else f"; {SHARED}") for one in again]
-    acted = {body for name, one in loads.items() for body in (one.body, one.against(name))}
-    under_loads = bool(loads) and all(set(one.bodies) & acted for one in loose)
-    warned = singular or (linkage.driven and not under_loads)
-    (warnings if warned else facts).extend(_freedoms(linkage, loose, singular, under_loads))
-    of_parts, doubts = of_joints(linkage, moved)
-    facts, warnings = [*facts, *of_parts], [*warnings, *data.warnings, *doubts]
-    for way in ways:
-        of_way, doubts = _way_sentences(way, transmission[way.drive])
-        facts, warnings = [*facts, *of_way], [*warnings, *doubts]
+    facts, warnings = _start_sentences(conditions, linkage, loads, freedoms)
+    parts = [of_joints(linkage, moved), ([], data.warnings)]
+    parts += [_way_sentences(way, transmission[way.drive]) for way in ways]
+    for more, doubts in parts:
+        facts, warnings = [*facts, *more], [*warnings, *doubts]
     if any(transmission.values()):
         facts.append(DEFINITION)
-    if moved:
-        error = float(np.median([one.forces.error for one in moved]))  # at a dead centre forces have no bound
-        under = f"weight and {listed(list(loads))}, once come on" if loads else "weight alone"
-        facts.append(f"static forces: under {under}; numerical error below {max(error, 1e-12):.0e} N")
+    facts += _force_facts(loads, moved)
+
+    count = TOLD_OF_SUPPORTS if support else TOLD
     numbers = {
-        "degrees_of_freedom": freedom.data(),
-        "closure_m": gaps,
-        "movements": [one.data() for one in loose],
-        **_numbers(conditions, linkage, ways, transmission, [] if loose else [at_rest], count),
-        "repeated_conditions": [[f"{kind}.{name}" for kind, name in one.parts] for one in again],
+        "degrees_of_freedom": mobility(linkage).data(),
+        "closure_m": _gaps(conditions, linkage),
+        "movements": [one.data() for one in freedoms.loose],
+        **_numbers(conditions, linkage, ways, transmission, balanced, count),
+        "repeated_conditions": [[f"{kind}.{name}" for kind, name in one.parts] for one in freedoms.repeated],
         **({"stroke_m": used} if used is not None and not linkage.cranks else {}),
         **found.numbers,
         "file_numbers": {key: one.data() for key, one in data.sourced.items()},
     }
     return CheckReport(
         name=data.name,
-        kind=data.kind or type(machine).__name__,
+        kind=data.kind or type(data.machine).__name__,
         facts=[*facts, *found.facts],
         sheets=[*_sheets(ways, numbers), *_sourced(data)],
         warnings=[*warnings, *found.warnings],
@@ -116,12 +107,38 @@ def check_machine(data: MachineData, stroke: float | None = None) -> CheckReport
         ],
         numbers=numbers,
         linkage=linkage,
-        start=at_rest,
+        start=start,
         loads=loads,
         ways=ways,
         transmission=transmission,
         blocks=data.blocks,
     )
+
+
+class _Freedoms(NamedTuple):
+    """What joints and driven parts leave open in the start posture, or hold twice.
+
+    Arguments:
+        loose: movements with all driven parts held.
+        singular: whether some of them end next to the start posture.
+        repeated: conditions that repeat others, there or, if that posture is singular, next to it.
+    """
+
+    loose: Sequence[Movement]
+    singular: bool
+    repeated: Sequence[RepeatedConditions]
+
+    @property
+    def can_be_driven(self) -> bool:
+        """Whether the driven parts alone decide where all bodies are, and do not hold each other."""
+        return not self.loose and not any(one.driven for one in self.repeated)
+
+
+def _freedoms_at_start(conditions: Conditions) -> _Freedoms:
+    loose = movements(conditions, conditions.still)
+    aside = beside(conditions, [one.rates * conditions.arms for one in loose])
+    singular = len(movements(conditions, aside)) < len(loose)
+    return _Freedoms(loose, singular, repeated(conditions, aside if singular else conditions.still))
 
 
 def _goal(linkage: Linkage, drive: str, stroke: float | None) -> tuple[float, float]:
@@ -141,6 +158,26 @@ def _gaps(conditions: Conditions, linkage: Linkage) -> dict[str, float]:
 
 
 # --- sentences ---
+
+
+def _start_sentences(
+    conditions: Conditions, linkage: Linkage, loads: Mapping[str, ActingLoad], freedoms: _Freedoms
+) -> tuple[list[str], list[str]]:
+    """Facts and warnings on the start posture: degrees of freedom, closure, what repeats and what moves."""
+    facts, gaps = [mobility(linkage).said()], _gaps(conditions, linkage)
+    if gaps:
+        facts.append(f"closure at the start: pins within {1e3 * max(gaps.values()):.1e} mm")
+    warnings = [
+        f"pins.{name}: its two points are {1e3 * gap:.3g} mm apart at the start"
+        for name, gap in gaps.items()
+        if gap > OPEN * conditions.size
+    ]
+    warnings += [one.said() + ("" if one.driven else f"; {SHARED}") for one in freedoms.repeated]
+    acted = {body for name, one in loads.items() for body in (one.body, one.against(name))}
+    under_loads = bool(loads) and all(set(one.bodies) & acted for one in freedoms.loose)
+    warned = freedoms.singular or (linkage.driven and not under_loads)
+    (warnings if warned else facts).extend(_freedoms(linkage, freedoms.loose, freedoms.singular, under_loads))
+    return facts, warnings
 
 
 def _freedoms(linkage: Linkage, loose: Sequence[Movement], singular: bool, under_loads: bool) -> Iterator[str]:
@@ -202,6 +239,14 @@ def _way_sentences(way: DriveWay, angles: Sequence[TransmissionAngle]) -> tuple[
                 "straight line forces grow, and play is felt"
             )
     return facts, warnings
+
+
+def _force_facts(loads: Mapping[str, ActingLoad], moved: Sequence[Moved]) -> Iterator[str]:
+    """Under what the static forces of postures are, if there are any, and how exact."""
+    if moved:
+        error = float(np.median([one.forces.error for one in moved]))  # at a dead centre forces have no bound
+        under = f"weight and {listed(list(loads))}, once come on" if loads else "weight alone"
+        yield f"static forces: under {under}; numerical error below {max(error, 1e-12):.0e} N"
 
 
 def _limit(way: DriveWay, end: float, limit: WayPoint) -> str:

@@ -34,14 +34,14 @@ class Inlet(Value, ABC):
         return 0.0
 
     @property
+    @abstractmethod
     def breaks(self) -> tuple[float, ...]:
-        """Times [s] at which the opening or its rate jumps; none by default."""
-        return ()
+        """Times [s] at which the opening or its rate jumps."""
 
     @property
+    @abstractmethod
     def shortest_time(self) -> float:
-        """Time [s] in which the opening changes, or stays, whichever is shorter; infinite by default."""
-        return math.inf
+        """Time [s] in which the opening changes, or stays, whichever is shorter."""
 
 
 @value
@@ -51,6 +51,16 @@ class ClosedInlet(Inlet):
     def opening(self, t: float) -> float:
         """The opening is 0 at any time."""
         return 0.0
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """There are no breaks."""
+        return ()
+
+    @property
+    def shortest_time(self) -> float:
+        """The time is infinite [s]."""
+        return math.inf
 
 
 @value

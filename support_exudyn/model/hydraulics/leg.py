@@ -143,15 +143,22 @@ class HydraulicLeg(Shared, ActuatorModel, ABC):
     @cached_property
     def rooms(self) -> dict[str, Room]:
         """Rooms of the leg by name."""
+        return self._rooms()
+
+    @cached_property
+    def paths(self) -> dict[str, Path]:
+        """Ways of the oil by name; of two that are recorded as the same flow the last one is."""
+        return self._paths()
+
+    # a cached property of a base class would be seen by other threads in place of the leg's own
+    def _rooms(self) -> dict[str, Room]:
         found = {"piston": Room(self.bore_area * self.oil_length, self.bore_area, air=self.trapped_air)}
         if (stage := self.second_stage) is not None:
             found["tube"] = Room(stage.bore_area * stage.oil_length, -stage.bore_area, stage.bore_area)
         of_valves = {"line": self.line, **self.valves}
         return found | {name: valve.room for name, valve in of_valves.items() if valve and valve.room}
 
-    @cached_property
-    def paths(self) -> dict[str, Path]:
-        """Ways of the oil by name; of two that are recorded as the same flow the last one is."""
+    def _paths(self) -> dict[str, Path]:
         found = {}
         if (line := self.line) is not None:
             path = line.path("line")._replace(flow="flow", passed="", loss="line_loss", event=CHECK_OPEN)
@@ -333,18 +340,16 @@ class HydraulicCylinder(HydraulicLeg):
         """Numbers of the check valve."""
         return NO_CHECK if self.check_valve is None else self.check_valve.numbers
 
-    @cached_property
-    def rooms(self) -> dict[str, Room]:
+    def _rooms(self) -> dict[str, Room]:
         """The piston side with its hose, the rod side, which both stages share, and the others."""
-        others, stage = dict(super().rooms), self.second_stage
+        others, stage = super()._rooms(), self.second_stage
         piston = others.pop("piston")
         area, length = (0.0, 0.0) if stage is None else (stage.rod_side_area, stage.rod_side_length)
         volume = self.rod_side_area * self.rod_side_length + self.rod_side_hose_volume + area * length
         rod = Room(volume, area - self.rod_side_area, -area)
         return {"piston": piston._replace(volume=piston.volume + self.hose_volume), "rod": rod} | others
 
-    @cached_property
-    def paths(self) -> dict[str, Path]:
+    def _paths(self) -> dict[str, Path]:
         """Both sides of the inlet, and the others."""
         numbers = self.nominal_flow / math.sqrt(self.nominal_drop), SMOOTH * self.nominal_drop
         there, check = ("piston", self.check) if self.line is None else ("line", NO_CHECK)
@@ -358,7 +363,7 @@ class HydraulicCylinder(HydraulicLeg):
             found["rod_relief"] = self.rod_relief.path("rod_relief")._replace(
                 before="rod", flow="relief_flow", passed="relieved", loss="yield_loss", event="rod relief open"
             )
-        return found | super().paths
+        return found | super()._paths()
 
     def stiffness(self, extension: float) -> float:
         """Stiffness of the closed chambers [N/m] at an extension since the start [m]."""

@@ -30,9 +30,9 @@ class LoadCourse(Value, ABC):
         """Share of the full force at a time t [s]."""
 
     @property
+    @abstractmethod
     def breaks(self) -> tuple[float, ...]:
-        """Times [s] at which a derivative jumps; none by default."""
-        return ()
+        """Times [s] at which a derivative jumps."""
 
     @property
     @abstractmethod
@@ -109,6 +109,11 @@ class HarmonicCourse(LoadCourse):
         return self.mean + math.sin(2.0 * math.pi / self.period * since + self.phase)
 
     @property
+    def breaks(self) -> tuple[float, ...]:
+        """There are no breaks."""
+        return ()
+
+    @property
     def shortest_time(self) -> float:
         """One over the angular frequency [s]."""
         return self.period / (2.0 * math.pi)
@@ -178,6 +183,7 @@ class AppliedForce(ComingOn, Load):
     Arguments:
         body, point: what it acts on, see `Load`; it stays with the point of the body.
         full_force: in the end, forward and up [N]; a roof presses down, (0, -1e6).
+        start, end, course: see `ComingOn`.
     """
 
     full_force: Newtons[Vector2]
@@ -214,6 +220,7 @@ class AppliedTorque(ComingOn, MomentLoad):
     Arguments:
         body, other: see `MomentLoad`.
         full_torque: in the end, positive anticlockwise [N m].
+        start, end, course: see `ComingOn`.
     """
 
     full_torque: NewtonMetres[Real]
