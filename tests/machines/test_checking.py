@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,11 @@ from support_exudyn.files.machines import load_machine
 from support_exudyn.files.machines.read import read_machine
 from support_exudyn.machines.check import CheckReport as Report
 from support_exudyn.machines.check import check_machine
+from support_exudyn.machines.check.drive_way import Moved
+from support_exudyn.machines.four_bar_shield import FourBarShield
+from support_exudyn.machines.machine_data import MachineData
+from support_exudyn.model.linkage import lumped
+from support_exudyn.model.plane_geometry import moved
 from tests.machine_files import OURS, written
 from user_forces import InputError
 
@@ -66,6 +72,87 @@ def test_shipped_machines_give_nothing_to_worry_about(name: str) -> None:
 
 
 # --- statics, independently ---
+
+
+def centres(machine: FourBarShield, posture: Any) -> dict[str, np.ndarray]:
+    """Centres of mass of all bodies in a posture [m]."""
+    anchors = {
+        "rear_link": (machine.rear_base, machine.rear_base, posture.rear_link),
+        "front_link": (machine.front_base, machine.front_base, posture.front_link),
+        "shield": (machine.rear_shield, posture.rear_shield, posture.shield),
+        "canopy": (machine.hinge, posture.hinge, posture.canopy),
+    }
+    return {name: np.array(moved(lumped(machine.parts[name]).centre, *to)) for name, to in anchors.items()}
+
+
+def postures(data: MachineData) -> Iterator[tuple[Moved, Any]]:
+    """Every tenth posture of a check, each with that of the closed form at the same travel."""
+    machine: Any = data.machine
+    (way,) = check_machine(data).ways
+    near = machine.start()
+    for number, one in enumerate(way.moved):
+        near = machine.extended(one.travel, near)
+        if number % 10 == 0:
+            yield one, near
+
+
+def equilibrium(machine: FourBarShield, p: Any) -> dict[str, Any]:
+    """Forces from three equations a body, written body by body, in a posture."""
+    at = {
+        "rear_base": np.array(machine.rear_base),
+        "front_base": np.array(machine.front_base),
+        "rear_shield": np.array(p.rear_shield),
+        "front_shield": np.array(p.front_shield),
+        "shield_canopy": np.array(p.hinge),
+    }
+    joins = {  # on the second body
+        "rear_base": (None, "rear_link"),
+        "front_base": (None, "front_link"),
+        "rear_shield": ("rear_link", "shield"),
+        "front_shield": ("front_link", "shield"),
+        "shield_canopy": ("shield", "canopy"),
+    }
+    bodies = ("rear_link", "front_link", "shield", "canopy")
+    centre = centres(machine, p)
+    matrix, right = np.zeros((12, 12)), np.zeros(12)
+
+    def act(body: str | None, column: int, force: np.ndarray, point: np.ndarray) -> None:
+        if body is None or body == "ground":
+            return
+        row, arm = 3 * bodies.index(body), point - centre[body]
+        matrix[row : row + 2, column] += force
+        matrix[row + 2, column] += arm[0] * force[1] - arm[1] * force[0]
+
+    for n, (pin, (first, second)) in enumerate(joins.items()):
+        for axis in range(2):
+            unit = np.eye(2)[axis]
+            act(second, 2 * n + axis, unit, at[pin])
+            act(first, 2 * n + axis, -unit, at[pin])
+    for n, strut in enumerate(machine.STRUTS.values()):
+        foot, head = (np.array(machine.place(*end, p)) for end in strut)
+        along = (head - foot) / np.linalg.norm(head - foot)
+        act(strut.head[0], 10 + n, along, head)
+        act(strut.foot[0], 10 + n, -along, foot)
+    for n, body in enumerate(bodies):
+        right[3 * n + 1] = G * lumped(machine.parts[body]).mass
+    found = np.linalg.solve(matrix, right)
+    pins = {pin: found[2 * n : 2 * n + 2] for n, pin in enumerate(joins)}
+    return pins | dict(zip(machine.STRUTS, found[10:], strict=True))
+
+
+@pytest.mark.parametrize("name", [*SHIELDS, "ours"])
+def test_pin_and_column_forces_are_those_of_equilibrium(name: str, tmp_path: Path) -> None:
+    data = load_machine(written(tmp_path)) if name == "ours" else read_machine(name)
+    machine: Any = data.machine
+    for moved_one, posture in postures(data):
+        exact = equilibrium(machine, posture)
+        # rounding of systems whose condition is some thousand; forces of 1e5 N
+        margin = 1e-6
+        assert moved_one.forces.error < margin
+        for pin, force in moved_one.forces.pins.items():
+            assert force == pytest.approx(exact[pin], abs=margin), pin
+        for column, push in moved_one.forces.actuators.items():
+            assert push == pytest.approx(exact[column], abs=margin), column
 
 
 def test_a_slider_crank_by_hand() -> None:

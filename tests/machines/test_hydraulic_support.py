@@ -9,10 +9,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from support_exudyn import CubicStep, Part, reference_support
+from support_exudyn import CubicStep, HydraulicSupport, Part, reference_support
 from support_exudyn.machines.four_column_support import Posture
 from support_exudyn.model.linkage import lumped
-from tests.cases.machine_cases import PARTS, support
+from tests.cases.machine_cases import PARTS, PIVOTS, support
 from tests.often import often
 from user_forces import InputError
 
@@ -67,6 +67,18 @@ def test_start_posture_is_the_published_one(name: str) -> None:
 # --- posture ---
 
 
+def residuals(machine: HydraulicSupport, c: Point, d: Point, i: Point) -> list[float]:
+    """By how much bars are longer in a posture than in the reference posture [m]."""
+    bars = [
+        (machine.rear_base, c, machine.rear_base, machine.rear_shield),
+        (machine.front_base, d, machine.front_base, machine.front_shield),
+        (c, d, machine.rear_shield, machine.front_shield),
+        (c, i, machine.rear_shield, machine.hinge),
+        (d, i, machine.front_shield, machine.hinge),
+    ]
+    return [math.dist(a, b) - math.dist(a0, b0) for a, b, a0, b0 in bars]
+
+
 @settings(max_examples=often(30))
 @given(height=st.floats(1.0, 2.7))
 def test_start_is_level_at_the_height_asked_for(height: float) -> None:
@@ -75,6 +87,10 @@ def test_start_is_level_at_the_height_asked_for(height: float) -> None:
     # the root is found to 1e-15 rad, at 2 m/rad
     assert start.hinge[1] == pytest.approx(height, abs=1e-14)
     assert start.canopy == 0.0
+    # rounding of lengths up to 1.5 m
+    assert residuals(machine, start.rear_shield, start.front_shield, start.hinge) == pytest.approx(
+        [0.0] * 5, abs=1e-14
+    )
 
 
 # --- extension ---
@@ -150,6 +166,12 @@ def test_bodies_have_the_published_masses(body: str, mass: float, inertia: float
     assert got.inertia == pytest.approx(inertia, abs=5e-4)
 
 
+@pytest.mark.parametrize(("body", "centre"), [("shield", (-489.2, 1322.9)), ("canopy", (1371.6, 2309.8))])
+def test_lumped_centres_are_the_published_ones(body: str, centre: Point) -> None:
+    # half of the last printed digit
+    assert [1e3 * c for c in lumped(SUPPORT.parts[body]).centre] == pytest.approx(centre, abs=0.05)
+
+
 # --- in more detail ---
 
 
@@ -184,3 +206,17 @@ def test_a_support_without_data_of_the_tail_beam_says_what_it_lacks() -> None:
     lacks = "tail_hinge, tail_jack_foot, tail_jack_head, a part of parts.shield named tail_beam"
     with pytest.raises(InputError, match=rf"parts\.tail_beam: the machine lacks {lacks}; allowed: Lumped"):
         SUPPORT.detailed((), ("tail_beam",))
+
+
+@pytest.mark.parametrize("places", [-3, -1, 0, 1, 4])
+@pytest.mark.parametrize("extension", [-3e-3, 1e-5, 5e-4, 0.2])
+def test_columns_extend_from_a_start_that_is_the_reference_posture_but_for_rounding(
+    places: int, extension: float
+) -> None:
+    height = PIVOTS["hinge"][1]
+    machine = support(start_hinge_height=height + places * math.ulp(height))
+    start, posture = machine.start(), machine.extended(extension)
+    assert abs(start.rear_link) < 1e-14
+    assert posture is not None
+    grown = np.subtract(machine.column_lengths(posture), machine.column_lengths(start))
+    np.testing.assert_allclose(grown, extension, rtol=0.0, atol=1e-11)

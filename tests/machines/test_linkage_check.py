@@ -7,6 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from scipy.interpolate import CubicSpline
 
 from support_exudyn.machines.check import CheckReport, check_machine
@@ -21,6 +23,7 @@ from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.figures.linkage_check import check_figure
 from tests.drawn.drawn_linkages import bar_of, towards
 from tests.linkages import four_bar
+from tests.often import often
 from user_forces import InputError
 
 CRANK_ROCKER = 0.1, 0.4, 0.3, 0.35
@@ -72,6 +75,31 @@ def test_dead_centres_of_a_double_rocker() -> None:
     assert f"crank at {limit:.2f} degrees: dead centre: coupler in line with rocker" in report.warnings[1]
     # no force is told where it has no bound
     assert all(abs(one["cranks_N_m"]["crank"]) < 100.0 for one in report.numbers["stations"])
+
+
+@settings(max_examples=often(8), deadline=None)
+@given(lengths=st.tuples(*[st.floats(0.15, 0.5)] * 4), degrees=st.floats(-170.0, 170.0))
+def test_ends_of_the_way_of_any_four_bar(lengths: tuple[float, float, float, float], degrees: float) -> None:
+    """By the triangle of coupler, rocker and the way from crank pin to rocker pivot."""
+    a, b, c, g = lengths
+    reach = math.dist(towards(degrees, a), (g, 0.0))
+    margin = 0.03
+    if not abs(b - c) + margin < reach < b + c - margin:
+        return
+    if min(abs(abs(a - g) - abs(b - c)), abs(a + g - b - c), abs(a - g)) < margin:
+        return  # next to a change point
+    report = checked(driven(four_bar(a, b, c, g, degrees), "crank"))
+    (way,) = report.ways
+    outer = corner(a, g, b + c) if a + g > b + c else None
+    inner = corner(a, g, abs(b - c)) if abs(a - g) < abs(b - c) else None
+    angle = abs(math.radians(degrees))
+    limits = {round(one, 6) for one in (outer, inner) if one is not None}
+    if not limits:
+        assert way.right_round
+        return
+    found = {round(abs(math.remainder(math.radians(way.shown(end)), 2.0 * math.pi)), 6) for end in way.ends}
+    assert sorted(found) == pytest.approx(sorted(limits), abs=2e-6)
+    assert (inner or 0.0) <= angle <= (outer or math.pi)
 
 
 def test_transmission_angles_are_those_of_the_triangle() -> None:

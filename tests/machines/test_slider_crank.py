@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from support_exudyn import Scenario, SliderCrank, Steady
+from support_exudyn import Scenario, SliderCrank, Steady, ravn_slider_crank
 from user_forces import InputError
 
 angles = st.floats(-10.0, 10.0)
@@ -65,6 +65,19 @@ def test_acceleration_is_the_derivative_of_the_speed(one: SliderCrank, angle: fl
     # sixth derivatives of the position up to 600 crank lengths, at rods of 1.2: 2e-11
     scale = one.crank_length * speed**2
     assert one.slider_acceleration(angle, speed) == pytest.approx(expected, abs=4e-11 * scale + 1e-300)
+
+
+def test_dead_centres_by_hand() -> None:
+    ravn = ravn_slider_crank()
+    # 120 mm plus and minus 50 mm; rounding
+    assert ravn.slider_position(0.0) == pytest.approx(0.17, rel=1e-15)
+    assert ravn.slider_position(math.pi) == pytest.approx(0.07, rel=1e-15)
+    # it stands there; sin(pi) is 1e-16
+    assert ravn.slider_speed(0.0, 100.0) == 0.0
+    assert ravn.slider_speed(math.pi, 100.0) == pytest.approx(0.0, abs=1e-14)
+    # w^2 r (1 + r/l) and w^2 r (1 - r/l); rounding
+    assert ravn.slider_acceleration(0.0, 100.0) == pytest.approx(-1e4 * 0.05 * (1.0 + 5.0 / 12.0), rel=1e-14)
+    assert ravn.slider_acceleration(math.pi, 100.0) == pytest.approx(1e4 * 0.05 * (1.0 - 5.0 / 12.0), rel=1e-14)
 
 
 # --- the mechanism ---

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 
 import numpy as np
 import pytest
@@ -12,7 +13,7 @@ from support_exudyn.files.machines.read import read_machine
 from support_exudyn.machines.two_leg_shield import TwoLegShield
 from support_exudyn.model.drives.coupled_drive import CoupledDrive
 from support_exudyn.model.plane_geometry import distance
-from user_forces import InputError
+from user_forces import InputError, value
 
 STROKE = 1.15
 
@@ -29,6 +30,18 @@ def scenario(shield: TwoLegShield) -> Scenario:
     return Scenario(machine=shield, drive=CubicStep(stroke=STROKE), duration=5.0)
 
 
+def test_the_tip_wanders_less_than_the_rule_allows(shield: TwoLegShield) -> None:
+    """MT/T 556-1996, 4.6.4: 80 mm; the design promises some 11 mm."""
+    posture, tips = shield.start(), []
+    for extension in np.linspace(0.0, STROKE, 116):
+        posture = shield.extended(float(extension), posture) or posture
+        tips.append(posture.tip[0])
+    assert shield.column_lengths(posture)[0] == pytest.approx(
+        shield.column_lengths(shield.start())[0] + STROKE, abs=1e-11
+    )
+    assert max(tips) - min(tips) < 0.0125
+
+
 def test_the_ram_follows_the_leg_within_a_nanometre(shield: TwoLegShield, scenario: Scenario) -> None:
     """Against lengths of closed-form postures between the points that the curve was made from."""
     ram, leg = scenario.drive_of("ram"), scenario.drive_of("leg")
@@ -42,6 +55,14 @@ def test_the_ram_follows_the_leg_within_a_nanometre(shield: TwoLegShield, scenar
         exact = distance(posture.ends["ram_foot"], posture.ends["ram_head"]) - at_start
         assert ram.extension(float(t)) == pytest.approx(exact, abs=1e-9)
     assert ram.extension(0.0) == 0.0
+
+
+def test_its_speed_is_the_derivative_of_its_extension(scenario: Scenario) -> None:
+    """Central differences; error h^2 / 6 times a third derivative of some m/s^3, and rounding 1e-16 / h."""
+    ram, h = scenario.drive_of("ram"), 1e-5
+    for t in np.linspace(3.1, 4.9, 37):
+        slope = (ram.extension(float(t) + h) - ram.extension(float(t) - h)) / (2.0 * h)
+        assert ram.speed(float(t)) == pytest.approx(slope, abs=1e-9)
 
 
 def test_breaks_jumps_and_starts_are_those_of_the_leg(shield: TwoLegShield) -> None:
@@ -90,3 +111,45 @@ def test_columns_one_after_the_other_are_told_when() -> None:
     """At its own end a drive would do; before the other has come, it does not."""
     with pytest.raises(InputError, match=r"drives\.rear_column: rear_column cannot follow beyond 1\.\d+ s"):
         driven(CubicStep(stroke=0.8, start=3.0, end=4.0), CubicStep(stroke=0.79, start=1.0, end=2.0))
+
+
+def test_what_was_followed_for_a_while_is_checked_anew_for_longer() -> None:
+    """The same drives: so far they go, and then no farther."""
+    front, rear = CubicStep(stroke=0.0), CubicStep(stroke=0.8, start=1.0, end=3.0)
+    driven(front, rear, duration=1.2)
+    with pytest.raises(InputError, match="rear_column cannot follow"):
+        driven(front, rear, duration=3.0)
+
+
+@value
+class Stages(Drive):
+    """A drive of one's own with a field that has no hash."""
+
+    strokes: Mapping[str, float]
+
+    def extension(self, t: float) -> float:
+        return t * math.fsum(self.strokes.values())
+
+    def speed(self, t: float) -> float:
+        del t
+        return math.fsum(self.strokes.values())
+
+    @property
+    def initial_speed(self) -> float:
+        return self.speed(0.0)
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        return ()
+
+    def span(self, duration: float) -> tuple[float, float]:
+        return 0.0, self.extension(duration)
+
+
+def test_the_ram_follows_a_drive_without_a_hash(shield: TwoLegShield) -> None:
+    steady, own = (
+        Scenario(machine=shield, drive=drive, duration=2.0).drive_of("ram")
+        for drive in (Steady(rate=0.1), Stages(strokes={"inner": 0.06, "outer": 0.04}))
+    )
+    # the same but for rounding
+    assert own.extension(2.0) == pytest.approx(steady.extension(2.0), abs=1e-12)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -23,7 +24,7 @@ from support_exudyn.model.linkage import (
     pinned,
 )
 from tests.drawn.drawn_linkages import apex, bar_of, chain, towards
-from tests.linkages import drawn_roughly, four_bar
+from tests.linkages import drawn_roughly, four_bar, lengthened
 from tests.often import often
 from user_forces import InputError
 
@@ -65,6 +66,42 @@ def test_the_branch_is_that_of_the_drawing(degrees: float, side: float) -> None:
     found = assembled(rough, {"crank": math.radians(degrees)})
     assert_same(found, four_bar(*sizes, degrees, side))
     assert found.bodies["crank"].angle == math.radians(degrees)
+
+
+def lengths(text: str) -> list[float]:
+    """Distances of pins on their bodies [mm] in a message, sorted."""
+    return sorted(float(one) for one in re.findall(r" ([\d.e+]+)[,m ]", text.partition("between pins:")[2]))
+
+
+@settings(max_examples=often(12), deadline=None)
+@given(seed=seeds, pairs=st.integers(1, 3), spread=st.floats(0.0, 0.6))
+def test_a_chain_drawn_at_random_closes_or_is_refused_with_the_loop_that_does_not(
+    seed: int, pairs: int, spread: float
+) -> None:
+    rng = np.random.default_rng(seed)
+    drawing = chain(rng, pairs)
+    for name, pin in list(drawing.pins.items()):
+        drawing = lengthened(drawing, {name: pin.second}, float(rng.uniform(-spread, spread)))
+    try:
+        found = assembled(drawing)
+    except InputError as error:
+        text = str(error)
+    else:
+        assert_same(assembled(found), found)
+        for name, body in drawing.bodies.items():  # bodies keep their shapes
+            for pin in drawing.pins:
+                for field in ("first", "second"):
+                    one, other = drawing.pins[pin], found.pins[pin]
+                    if getattr(one, field) == name:
+                        long = math.dist(getattr(one, f"{field}_point"), body.centre)
+                        now = math.dist(getattr(other, f"{field}_point"), found.bodies[name].centre)
+                        assert now == pytest.approx(long, abs=CLOSE)
+        return
+    if "no way leads" in text:
+        return
+    sides = lengths(text)
+    if len(sides) == text.count("pin "):  # a single loop
+        assert sides[-1] > sum(sides[:-1])
 
 
 def test_the_gap_of_a_four_bar_is_what_its_longest_side_is_too_long() -> None:

@@ -10,11 +10,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from support_exudyn import ClearancePin, Scenario, ravn_slider_crank, reference_support
+from support_exudyn import ClearancePin, Held, Scenario, ravn_slider_crank, reference_support
 from support_exudyn.mechanics.kinetics import kinetics_of
 from support_exudyn.mechanics.postures import eccentric
 from support_exudyn.model.linkage import Linkage
-from tests.cases.run_cases import PIN, SLIDER_PIN, slider_crank_contact
+from tests.cases.run_cases import PIN, SLIDER_PIN, paper_contact, slider_crank_contact
 from tests.often import often
 from user_forces import InputError
 
@@ -79,6 +79,15 @@ def test_no_posture_nearby_is_moved_less() -> None:
     mass = closed.mass()
     along = [abs(direction @ (mass * way)) / math.sqrt(direction @ (mass * direction)) for direction in free]
     assert max(along, default=0.0) < 1e-2 * math.sqrt(way @ (mass * way))
+
+
+def test_the_bore_of_the_second_body_turns_the_offset_around() -> None:
+    contact = paper_contact(1.5, 0.0)
+    for bore, sign in (("first", 1.0), ("second", -1.0)):
+        pin = ClearancePin(contact=contact, bore=bore, eccentricity=(1e-3, -5e-4))
+        pins = {PIN: pin, "rear_shield": pin}
+        scenario = Scenario(machine=reference_support(), pins=pins, duration=0.01, drive=Held())
+        assert_laid_out(scenario.linkage, SUPPORT, dict.fromkeys(pins, (sign * 1e-3, -sign * 5e-4)))
 
 
 # --- guides and cranks ---

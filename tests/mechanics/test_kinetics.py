@@ -26,7 +26,7 @@ from support_exudyn.mechanics.kinetics import Kinetics, kinetics_of
 from support_exudyn.model.linkage import GROUND, pinned
 from tests.cases.run_cases import Pair, slider_crank_contact
 from tests.often import often
-from user_forces.contact_state import InverseMass
+from user_forces.contact_state import HEAVIEST, InverseMass
 from user_forces.values.value import Vector2
 
 sometimes = settings(deadline=None, max_examples=often(40))
@@ -127,7 +127,48 @@ def slider_crank(crank: float, rod: float, angle: float) -> SliderCrank:
     )
 
 
+cranks = st.builds(slider_crank, crank=st.floats(0.02, 0.2), rod=st.floats(1.05, 5.0), angle=angles)
+
+
+@sometimes
+@given(machine=cranks, direction=angles)
+def test_slider_pin_feels_the_rod_about_the_crank_pin_and_the_slider(
+    machine: SliderCrank, direction: float
+) -> None:
+    # the crank cannot give way, as it is driven. Free are the angle of the rod about the crank pin, with
+    # m l^2/4 + I, and the slider along x: M = diag(m l^2/4 + I, m_s); the pin's eccentricity, rod minus slider,
+    # answers with J = ((-l sin b, -1), (l cos b, 0)) to (angle, x)
+    length = machine.rod_length
+    fall = -math.asin(machine.crank_length * math.sin(machine.start_angle) / length)  # angle of the rod
+    inertia = machine.rod_mass * length**2 / 4.0 + machine.rod_inertia
+    rate = np.array([[-length * math.sin(fall), -1.0], [length * math.cos(fall), 0.0]])
+    expected = rate @ np.diag([1.0 / inertia, 1.0 / machine.slider_mass]) @ rate.T
+    system = kinetics(machine.linkage(), "slider_pin")
+    n = unit(direction)
+    assert inverse_mass(system, np.zeros(9), "slider_pin") == pytest.approx(expected, abs=1e-11)
+    # rounding of inverse effective masses up to 12/kg; this one is 0.7/kg or more at rods of 1.05 cranks or
+    # longer
+    got = pin_mass(system, np.zeros(9), "slider_pin", direction)
+    assert got == pytest.approx(1.0 / float(n @ expected @ n), rel=1e-9)
+
+
 # --- what cannot move ---
+
+
+@sometimes
+@given(mass=masses, direction=angles, turned=angles)
+def test_a_body_on_a_slide_cannot_be_pushed_across_it(mass: float, direction: float, turned: float) -> None:
+    body = Body(mass=mass, inertia=1.0, centre=(0.1, 0.2), angle=turned)
+    linkage = Linkage(
+        bodies={"a": body},
+        pins={"pin": pinned(GROUND, "a", (0.3, -0.4))},
+        slides={"s": Slide(body="a", point=(0.1, 0.2), direction=direction)},
+    )
+    system = kinetics(linkage, "pin")
+    # along it, its own mass: it does not turn; rounding
+    assert pin_mass(system, np.zeros(3), "pin", direction) == pytest.approx(mass, rel=1e-12)
+    # across it, a mass beyond all others; rounding of a mobility of 10/kg or less
+    assert 1e13 < pin_mass(system, np.zeros(3), "pin", direction + math.pi / 2) <= HEAVIEST * (1.0 + 1e-9)
 
 
 # --- Jacobians ---
@@ -232,3 +273,19 @@ def test_a_scene_gives_the_mobility_in_the_axes_of_the_bore(bore: str, start_ang
         expected = across_rod**2 / inertia + n[0] ** 2 / machine.slider_mass
         # rounding
         assert got.mass(*(1e-3 * unit(direction)).tolist()) == pytest.approx(1.0 / expected, rel=1e-9)
+
+
+def test_other_loose_pins_transmit_no_impulse() -> None:
+    linkage = Linkage(
+        bodies={
+            "a": Body(mass=2.0, inertia=0.25, centre=(0.0, 0.0)),
+            "b": Body(mass=3.0, inertia=0.7, centre=(1.0, 0.0)),
+        },
+        pins={"base": pinned(GROUND, "a", (-0.5, 0.0)), "pin": pinned("a", "b", (0.5, 0.0))},
+    )
+    # across the line of both centres: 1/2 + 0.5^2/0.25 and 1/3 + 0.5^2/0.7; rounding
+    free = pin_mass(kinetics(linkage, "base", "pin"), np.zeros(6), "pin", math.pi / 2)
+    assert 1.0 / free == pytest.approx(0.5 + 1.0 + 1.0 / 3.0 + 0.25 / 0.7, rel=1e-12)
+    # on a closed base the first body turns about it: 1^2/(0.25 + 2 0.5^2) in place of 3/2
+    held = pin_mass(kinetics(linkage, "pin"), np.zeros(6), "pin", math.pi / 2)
+    assert 1.0 / held == pytest.approx(1.0 / 0.75 + 1.0 / 3.0 + 0.25 / 0.7, rel=1e-12)

@@ -56,6 +56,20 @@ def test_rows_turn_as_their_bodies_move() -> None:
     np.testing.assert_allclose(turning(motion, constraints_of(linkage)), changed, atol=1e-7)
 
 
+@pytest.mark.parametrize(
+    "drive", [CubicStep(stroke=0.05, start=0.02, end=0.2), Reciprocating(stroke=0.02, period=0.1)]
+)
+def test_forces_are_those_of_free_coordinates_also_after_a_break(drive: Drive) -> None:
+    scene = support(duration=0.1, drive=drive, step=1e-3)
+    mine, other = simulate(scene), simulate(replace(scene, formulation="compiled"))
+    for name in mine.channels:
+        if name.endswith(".force"):
+            # measured: 3e-6. Multipliers overshoot in the first steps after a jump of the drive's acceleration
+            np.testing.assert_allclose(
+                mine[name], other[name], atol=1e-5 * np.abs(other[name]).max(), rtol=0.0, err_msg=name
+            )
+
+
 @pytest.mark.parametrize("actuators", [{}, oil_columns(), cylinders_and_rods()])
 def test_short_steps_show_no_rounding_in_forces(actuators: dict) -> None:  # type: ignore[type-arg]
     # the journal falls freely: nothing shakes. Multipliers scatter by 1e5 N at this step

@@ -32,7 +32,10 @@ from support_exudyn.model.spatial_linkage import (
     SpatialBody,
     SpatialLinkage,
 )
+from tests.cases.law_cases import NORMAL_LAWS
+from user_forces import LoadError, NormalLaw
 from user_forces.connector.item import Attachment
+from user_forces.normal.part import PartOf
 
 unit = st.floats(-1.0, 1.0, allow_subnormal=False)
 vectors = st.tuples(unit, unit, unit)
@@ -222,6 +225,25 @@ def test_lobatto_is_exact_for_polynomials(number: int) -> None:
         mean = 1.0 / (degree + 1) if degree % 2 == 0 else 0.0
         # roots of the derivative of a polynomial of degree 63 lose some digits
         assert weights @ places**degree == pytest.approx(mean, abs=1e-14 if number < 20 else 1e-8)
+
+
+@given(depth=st.floats(1e-7, 1e-4), rate=st.floats(-0.05, 0.05), number=st.integers(2, 9))
+@pytest.mark.parametrize("law", NORMAL_LAWS, ids=lambda law: type(law).__name__)
+def test_sections_at_equal_depth_add_up_to_the_law(
+    law: NormalLaw, depth: float, rate: float, number: int
+) -> None:
+    _, weights = lobatto(number)
+    parts = [PartOf(law=law, share=share) for share in weights.tolist()]
+    impact = 0.05
+    try:
+        whole = law(depth, rate, impact), law.elastic_force(depth), law.elastic_energy(depth)
+    except LoadError:
+        assume(False)
+    # rounding of a sum
+    assert sum(part(depth, rate, impact) for part in parts) == pytest.approx(whole[0], rel=1e-12, abs=1e-9)
+    assert sum(part.elastic_force(depth) for part in parts) == pytest.approx(whole[1], rel=1e-12)
+    assert sum(part.elastic_energy(depth) for part in parts) == pytest.approx(whole[2], rel=1e-12)
+    assert {part.largest_depth for part in parts} == {law.largest_depth}
 
 
 @given(

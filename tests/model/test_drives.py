@@ -10,6 +10,8 @@ from hypothesis import strategies as st
 
 from support_exudyn import CubicStep, Reciprocating, Steady, UniformSpeed
 from support_exudyn.model.drives.drive import Drive, Stroke
+from support_exudyn.model.hydraulics.inlets import Inlet
+from support_exudyn.model.loads.applied import LoadCourse
 from tests.analytic import adams_step
 from tests.ranges import from_zero
 from user_forces import InputError
@@ -70,6 +72,14 @@ def test_extension_stays_within_the_span_and_reaches_it(drive: Drive, duration: 
     assert lowest + highest == pytest.approx(farthest, abs=rounding)
 
 
+@given(drive=strokes, beyond=st.floats(1e-6, 5.0))
+def test_actuators_rest_before_the_start_and_at_their_stroke_after_the_end(
+    drive: Stroke, beyond: float
+) -> None:
+    assert (drive.extension(drive.start - beyond), drive.speed(drive.start - beyond)) == (0.0, 0.0)
+    assert (drive.extension(drive.end + beyond), drive.speed(drive.end + beyond)) == (drive.stroke, 0.0)
+
+
 # --- strokes ---
 
 
@@ -98,3 +108,9 @@ def test_reciprocating_by_hand() -> None:
     # before the start nothing moved: the acceleration jumps there
     assert chosen.breaks == (0.0,)
     assert Reciprocating(period=1.0).stroke == 0.5
+
+
+@pytest.mark.parametrize("kind", [Drive, Inlet, LoadCourse])
+def test_functions_of_time_of_ones_own_state_where_they_break(kind: type) -> None:
+    """Without its breaks a step would pass a jump in silence."""
+    assert "breaks" in kind.__abstractmethods__  # type: ignore[attr-defined]

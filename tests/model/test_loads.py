@@ -1,11 +1,9 @@
-"""Loads as functions of numbers: closed forms, energy, virtual work, courses, and what a scenario takes."""
+"""Loads as functions of numbers: energy, virtual work, closed forms and courses."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -34,29 +32,22 @@ from support_exudyn import (
     TableCourse,
     TorsionSpring,
     UniformSpeed,
-    ravn_slider_crank,
-    simulate,
 )
-from support_exudyn.files.scenarios.scenario_file import scenario_of
-from support_exudyn.files.toml.text import parsed
 from support_exudyn.mechanics.acting_loads import MANY, add_load, largest_forces, load_series
 from support_exudyn.mechanics.body_motion import UNTURNED, BodyMotion, Motion, SpatialMotion, parameter_rates
 from support_exudyn.mechanics.kinetics import kinetics_of
 from support_exudyn.model.loads.load import ActingLoad, Load, LoadChannel, MomentLoad, StretchLoad
 from support_exudyn.model.spatial_linkage import SpatialBody, SpatialLinkage
-from support_exudyn.scenario.timescales import timescales
 from tests.linkage_cases import CrankRocker
 from tests.roof_cases import (
     STIFFNESS,
     TOP,
     Ram,
-    over_the_canopy,
     over_the_ram,
-    pressed_support,
 )
-from user_forces import InputError, value
+from user_forces import value
 from user_forces.kernel import kernel
-from user_forces.values.value import Vector2
+from user_forces.values.value import Vector2, kinds_of
 
 TABLE = TableCourse(times=(0.1, 0.2, 0.4), shares=(2.0, 1.0, -0.5))
 SINE = HarmonicCourse(period=0.25, phase=0.2, mean=0.5)
@@ -126,6 +117,11 @@ def moved(
     plane = (t + by, *now[:count], *rates[:count])
     motion: tuple[float, ...] = load.MOTION(*plane, *([now[2], rates[2]] if load.FORCES == 3 else ()))
     return motion
+
+
+def test_every_kind_of_load_is_in_the_table() -> None:
+    kinds = {kind for kind in kinds_of(ActingLoad).values() if kind.__module__.startswith("support_exudyn")}
+    assert kinds <= {type(load) for load in LOADS.values()}
 
 
 @every_load
@@ -317,6 +313,13 @@ def test_a_table_is_constant_outside_and_meets_its_points() -> None:
     assert replace(TABLE, between="linear").share(0.3) == pytest.approx(0.25, rel=1e-12)
 
 
+def test_a_force_comes_on_between_its_times() -> None:
+    assert COMES_ON.breaks == (0.1, 0.3)
+    found = acting(COMES_ON, LoadedPoint(0.2, 0.0, 0.0, 0.0, 0.0)).channels
+    assert found == pytest.approx({"force_x": 1e3, "force_y": -2.5e4})
+    assert ALWAYS.breaks == ()
+
+
 @pytest.mark.parametrize(
     ("load", "duration", "largest"),
     [
@@ -333,95 +336,3 @@ def test_the_largest_force_of_a_run(load: ActingLoad, duration: float, largest: 
     system = kinetics_of(Scenario(machine=Ram(), duration=1.0).linkage)
     found = largest_forces(system, {"load": load}, duration)
     assert found[:2] == pytest.approx(largest, rel=1e-2)  # what lies between two of the times
-
-
-# --- what a scenario takes ---
-
-
-def test_a_load_has_its_channels_and_its_energies() -> None:
-    loaded, bare = (
-        pressed_support(over_the_canopy(0.1)).channel_definitions,
-        pressed_support(over_the_canopy(0.1), loads={}),
-    )
-    assert [name for name in loaded if name not in bare.channel_definitions] == ["roof.force", "roof.gap"]
-    assert [loaded[f"roof.{what}"].unit for what in ("force", "gap")] == ["N", "m"]
-    assert loaded["energy.elastic"].meaning == "stored in contacts, oil and loads"
-    assert bare.channel_definitions["energy.elastic"].meaning == "stored in contacts and oil"
-    asked = pressed_support(over_the_canopy(0.1), channels=("roof.gap",), duration=0.01)
-    assert list(simulate(asked).channels) == ["time", "roof.gap"]
-
-
-@pytest.mark.parametrize("name", ["canopy", "front_column", "rear_base", "tip", "pin", "energy", "time"])
-def test_a_name_that_is_taken_is_refused(name: str) -> None:
-    with pytest.raises(InputError, match=rf"loads\.{name}: the machine has something of this name; allowed:"):
-        pressed_support(over_the_canopy(0.1), loads={name: over_the_canopy(0.1)})
-
-
-REFUSED: dict[str, Callable[[], object]] = {
-    r"loads\.roof\.body = 'ram': no such body; allowed: rear_link, ": lambda: pressed_support(over_the_ram()),
-    r"loads\.roof\.body = 'front_link': there are two of it in space, ": lambda: pressed_support(
-        over_the_canopy(0.1, body="front_link"), dimensions=3
-    ),
-    r"Roof\.stiffness = 0\.0: .*allowed: > 0": lambda: replace(over_the_ram(), stiffness=0.0),
-    r"Roof\.damping = -1\.0: .*allowed: >= 0": lambda: replace(over_the_ram(), damping=-1.0),
-    "3 times and 2 shares": lambda: TableCourse(times=(0.0, 0.1, 0.2), shares=(0.0, 1.0)),
-    "the one before": lambda: TableCourse(times=(0.0, 0.2, 0.1), shares=(0.0, 1.0, 2.0)),
-    "the course says when": lambda: replace(FORCE, start=0.1, end=0.2),
-    "period": lambda: HarmonicCourse(period=0.0),
-    r"allowed: > start = 0\.1 s, or both 0": lambda: replace(COMES_ON, end=0.1),
-}
-
-
-@pytest.mark.parametrize("said", REFUSED)
-def test_loads_that_cannot_be_are_refused(said: str) -> None:
-    with pytest.raises(InputError, match=said):
-        REFUSED[said]()
-
-
-# --- the times that steps have to follow ---
-
-
-def test_steps_follow_the_descent() -> None:
-    assert timescales(pressed_support(over_the_canopy(0.1, start=0.03, end=0.07))).drive == pytest.approx(0.04)
-    rising = CubicStep(stroke=0.1, start=0.0, end=0.02)
-    assert timescales(pressed_support(over_the_canopy(0.1), drive=rising)).drive == 0.02
-    # a face that goes on as it does has no time of its own, as a crank has
-    crank = ravn_slider_crank()
-    press = over_the_canopy(0.1, body="slider", point=crank.linkage().bodies["slider"].centre)
-    steady = replace(press, descent=Steady(rate=100.0))
-    assert timescales(Scenario(machine=crank, loads={"roof": steady}, duration=0.1)).drive == math.inf
-
-
-# --- files and pictures ---
-
-
-def test_loads_are_read_from_files() -> None:
-    text = """machine = "reference"
-duration_s = 1
-[loads.spring]
-type = "SpringDamper"
-body = "canopy"
-point_mm = [2000, 1800]
-other = "shield"
-other_point_mm = [1200, 1400]
-stiffness_kN_per_mm = 0.1
-free_length_mm = 700
-damping_kN_s_per_m = 2
-[loads.coil]
-type = "TorsionSpring"
-body = "canopy"
-stiffness_N_m_per_rad = 200
-free_turn_deg = 10
-[loads.pulse]
-type = "AppliedTorque"
-body = "rear_link"
-full_torque_N_m = 5000
-course = { type = "TableCourse", times_s = [0, 0.1], shares = [0, 1] }
-"""
-    loads = scenario_of(parsed(text, "a"), "a", Path()).loads
-    assert loads["spring"] == SpringDamper(
-        body="canopy", point=(2.0, 1.8), other="shield", other_point=(1.2, 1.4), stiffness=1e5, free_length=0.7,
-        damping=2e3,
-    )  # fmt: skip
-    assert loads["coil"] == TorsionSpring(body="canopy", stiffness=200.0, free_turn=math.radians(10.0))
-    assert loads["pulse"].breaks == (0.0, 0.1)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy.interpolate import PchipInterpolator
 
@@ -46,6 +47,21 @@ def test_smooth_is_scipys_pchip_of_the_table_with_the_rest_around_it(drive: Tabl
     # rounding of 2 m, and of its rate over the shortest piece of 1 ms: 2e-16 times 4 m / 1 ms, some ten terms
     np.testing.assert_allclose(found, expected(at), rtol=0.0, atol=1e-14)
     np.testing.assert_allclose(rate, expected(at, 1), rtol=0.0, atol=4e-11)
+
+
+@given(drive=tables, share=st.floats(0.0, 1.0))
+def test_speed_is_the_derivative(drive: TableDrive, share: float) -> None:
+    t = drive.times[0] + share * (drive.times[-1] - drive.times[0])
+    h = 1e-6
+    assume(all(abs(t - one) > 2.0 * h for one in drive.times))
+    slope = (drive.extension(t + h) - drive.extension(t - h)) / (2.0 * h)
+    # third derivative: at most 6 (2 + 3 + 3) rise/length^3, slopes being at most 3 secants, times h^2/6;
+    # rounding of 2 m over h
+    steepest = max(
+        abs(b - a) / (d - c) ** 3
+        for (a, b), (c, d) in zip(pairwise(drive.extensions), pairwise(drive.times), strict=True)
+    )
+    assert drive.speed(t) == pytest.approx(slope, abs=8.0 * steepest * h * h + 1e-9, rel=1e-9)
 
 
 @given(drive=st.builds(table, starts, lengths, heights, st.just("linear")))

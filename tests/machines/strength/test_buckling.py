@@ -74,6 +74,17 @@ def test_a_stepped_column_is_that_of_finite_elements(parts: list[Segment]) -> No
     assert euler_load(parts) == pytest.approx(by_finite_elements(parts), rel=2e-3)
 
 
+@given(parts=segments, longer=st.floats(1.01, 3.0), scale=st.floats(0.1, 10.0))
+def test_order_length_and_units(parts: list[Segment], longer: float, scale: float) -> None:
+    load = euler_load(parts)
+    assert euler_load(parts[::-1]) == pytest.approx(load, rel=1e-9)
+    assert euler_load([(length * scale, stiffness) for length, stiffness in parts]) == pytest.approx(
+        load / scale**2, rel=1e-9
+    )
+    (first, stiffness), *others = parts
+    assert euler_load([(first * longer, stiffness), *others]) < load
+
+
 def test_johnson_meets_euler_where_half_the_section_yields() -> None:
     # of a uniform column: sigma_y (1 - sigma_y (l/r)^2 / (4 pi^2 E))
     stage = CylinderStage(outer_diameter=0.1, length=1.0)

@@ -20,6 +20,7 @@ from support_exudyn.machines.strength.roof_forces import (
     UsedPosture,
     used_postures,
 )
+from support_exudyn.mechanics.closing import Conditions, newton
 from support_exudyn.model.linkage import GROUND, Body, LinearActuator, Linkage, TracePoint, pinned
 from user_forces import InputError
 
@@ -80,6 +81,40 @@ def test_a_leg_under_a_beam(
     size = 1e-9 * (push + mass * G) / at
     assert hinge[1] == pytest.approx(expected + mass * G - push * up, abs=size)
     assert hinge[0] == pytest.approx(-push * up * lean, abs=size)
+
+
+@given(
+    which=shields,
+    pushes=st.tuples(pushing, pushing),
+    friction=frictions,
+    way=st.tuples(*2 * [st.floats(-1, 1)]),
+)
+def test_the_work_of_actuators_is_that_against_roof_and_weight(
+    which: tuple[str, int], pushes: tuple[float, float], friction: float, way: tuple[float, float]
+) -> None:
+    linkage = postures(which[0])[which[1]].linkage
+    statics = RoofStatics(linkage, "canopy", friction)
+    forces = dict(zip(linkage.actuators, pushes, strict=True))
+    roof = statics.balancing(forces)
+    assert roof is not None
+    conditions = Conditions(linkage)
+    closed = conditions.kinetics
+    step = 1e-4
+    there = []
+    for sign in (1.0, -1.0):
+        travels = {name: sign * step * part for name, part in zip(linkage.actuators, way, strict=True)}
+        found = newton(conditions, conditions.still, conditions.targets(travels, {}), 1.0)
+        assert found is not None
+        there.append(found / conditions.arms)
+    height = statics.contact.height
+    spots = [closed.point(one, "canopy", (roof.x, height))[0] for one in there]
+    moved = spots[0] - spots[1]
+    against_roof = roof.force * (moved[1] - friction * moved[0])
+    weights = np.array([body.mass * G for body in linkage.bodies.values()])
+    against_weight = float(weights @ (there[0] - there[1])[1::3])
+    done = sum(2.0 * step * part * push for part, push in zip(way, pushes, strict=True))
+    size = step * (sum(pushes) + abs(roof.force) * (1.0 + abs(roof.x)) + weights.sum())
+    assert done == pytest.approx(against_roof + against_weight, abs=1e-5 * size)
 
 
 # --- equilibrium, body by body ---

@@ -10,6 +10,7 @@ from typing import Any
 
 import pytest
 
+from studies.common.support_legs import PAIRS, legs_data, support_legs
 from support_exudyn.files.machines import load_machine, shipped
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.machines.planar_linkage import PlanarLinkage
@@ -161,6 +162,45 @@ def said_of(found: StandReport) -> str:
 
 def page_of(data: MachineData) -> str:
     return said_of(stand(data))
+
+
+# --- one name has one set of legs ---
+
+
+@pytest.mark.parametrize("name", ["reference", "zf18000"])
+def test_legs_are_those_of_the_studies(name: str) -> None:
+    data = shipped(name)
+    assert data.strength is not None
+    about = legs_data().about(name)
+    for column in PAIRS:
+        own, studied = data.strength.cylinders[column], support_legs(name)[column]
+        assert own.area == pytest.approx(studied.bore_area, rel=1e-7)
+        assert studied.yield_valve is not None
+        assert own.yield_pressure == pytest.approx(studied.yield_valve.opening_pressure, rel=1e-12)
+        assert own.setting_pressure == pytest.approx(studied.setting_pressure, rel=1e-12)
+        assert own.stages[0].inner_diameter == own.bore
+        for key, other, source in (
+            ("yield_pressure_MPa", "cylinder.yield_valve.opening_pressure_MPa", "printed rated force"),
+            ("setting_pressure_MPa", "cylinder.setting_pressure_MPa", "printed setting force"),
+        ):
+            one = data.sourced[f"strength.cylinders.{column}.{key}"]
+            assert (one.value, one.low, one.high) == (about[other].value, about[other].low, about[other].high)
+            assert one.source.startswith(source)
+            assert about[other].source.startswith(source)
+        bore, area = (
+            data.sourced[f"strength.cylinders.{column}.bore_mm"],
+            about["cylinder.bore_area_mm2"],
+        )
+        for diameter, both in ((bore.low, area.low), (bore.high, area.high)):
+            assert diameter is not None
+            assert both is not None
+            assert 0.5 * math.pi * float(diameter) ** 2 == pytest.approx(float(both), rel=1e-6)
+        # around the rod of the studies
+        ring = 0.5 * math.pi * (own.bore**2 - own.stages[1].outer_diameter ** 2)
+        assert ring == pytest.approx(studied.rod_side_area, rel=1e-6)
+    (printed,) = (one for one in legs_data().file.published if one.model in data.sources["strength"])
+    assert data.strength.rated_force == printed.rated
+    assert sum(one.push for one in data.strength.cylinders.values()) == pytest.approx(printed.rated, rel=1e-3)
 
 
 # --- how far a verdict goes ---
