@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass
 
-from pydantic import TypeAdapter
+from pydantic import ConfigDict, TypeAdapter
 
 from studies.claims.evidence import RELATIONS, Evidence, Measured, Verdict, every
 from studies.claims.plausible_runs import CLEARANCES, IDEAL
@@ -15,6 +15,9 @@ from support_exudyn.postprocessing.shown_numbers import rounded
 LAST_DIGIT = 5.1e-4  # of a printed stiffness [N/mm^1.5]
 
 
+WHOLE = ConfigDict(extra="forbid")  # no key of the file is left out
+
+
 @dataclass(frozen=True)
 class Judge:
     """A relation that every one of some measures has on a machine.
@@ -22,6 +25,8 @@ class Judge:
     relation: of RELATIONS, over the cases. at: its threshold. of: a measure of the ideal pin of which the
     threshold is a share. shown: thresholds that others might choose, and `at`, at which shares are shown.
     """
+
+    __pydantic_config__ = WHOLE
 
     relation: str
     measures: tuple[str, ...]
@@ -79,6 +84,8 @@ class Claim:
     anything. follows_from: name of a statement that contains this one. figure, table: what shows it, as
     study/stem and study/name; without a table all numbers of the figure's study do.
     """
+
+    __pydantic_config__ = WHOLE
 
     where: str
     text: str

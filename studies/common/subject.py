@@ -11,6 +11,7 @@ from studies.common import paper_machine
 from studies.common.paper_machine import CLEARANCE_MM
 from studies.common.rise import PAPER, Watched
 from support_exudyn import ClearancePin, CubicStep, IdealPin, Pin, Scenario, SolverSettings
+from support_exudyn.commands.command_line import warn
 from support_exudyn.files import load_toml, read_scenario_file
 from support_exudyn.files.machines.read import load_machine, read_machine
 from support_exudyn.files.scenarios.short_joints import ShortPin, pin_in_machine
@@ -61,6 +62,13 @@ class Subject:
         law = self.given.contact.friction if self.given else None
         return float(getattr(law, "sliding_coefficient", paper_machine.SLIDING_COEFFICIENT))
 
+    @property
+    def is_slow(self) -> bool:
+        """Whether no formulation but the Exudyn one covers the motion with clearance in the pin."""
+        share = paper_machine.SIZES_MM[0] / paper_machine.BORE_RADIUS
+        size = share * self.bore_radius if self.given is None else 1e3 * self.given.contact.bearing.clearance
+        return self.with_clearance(size, self.friction).accuracy != paper_machine.ACCURACY
+
     def with_clearance(self, clearance_mm: float, sliding_coefficient: float) -> Scenario:
         """The run with this radial clearance in the pin, to the accuracy of studies."""
         return self._with(self.clearance_pin(clearance_mm, sliding_coefficient))
@@ -88,11 +96,11 @@ class Subject:
         contact = self.clearance_pin(self.clearance_mm, self.friction).contact
         length, law = (getattr(contact.normal, name, None) for name in ("length", "damping"))
         touches = "as two spheres" if length is None else f"along its length of {1e3 * length:g} mm"
-        said = {
+        known = {
             "restitution": getattr(contact.normal, "restitution", None),
             "friction coefficient": getattr(contact.friction, "sliding_coefficient", None),
         }
-        data = "".join(f", {what} {value:g}" for what, value in said.items() if value is not None)
+        data = "".join(f", {what} {value:g}" for what, value in known.items() if value is not None)
         return (
             f"Pin {self.pin} touches its bore of {1e3 * contact.bearing.bore_radius:g} mm radius {touches} "
             f"({law if isinstance(law, str) else title(type(contact.normal))}{data})."
@@ -144,7 +152,14 @@ def chosen_subject(machine: Path | None, pin: str | None) -> Subject:
     """The subject of a command line. Raises InputError or OSError if the machine cannot be read."""
     if machine is None and pin is not None:
         raise InputError(f"--pin {pin}: allowed: together with --machine FILE")
-    return own_subject(machine, pin) if machine else paper_subject()
+    if machine is None:
+        return paper_subject()
+    subject = own_subject(machine, pin)
+    if subject.is_slow:
+        warn(
+            f"--machine {machine}: only the Exudyn formulation covers it: minutes, where --list prints seconds"
+        )
+    return subject
 
 
 def own_subject(path: Path, pin: str | None = None) -> Subject:
@@ -172,8 +187,8 @@ def own_subject(path: Path, pin: str | None = None) -> Subject:
     loose = [name for name, one in scenario.pins.items() if isinstance(one, ClearancePin)]
     chosen = pin or (loose[0] if len(loose) == 1 else paper_machine.CLEARANCE_PIN)
     if chosen not in pins:
-        said = f"--pin {short(pin)}: no such pin" if pin else "--pin: missing; it says which pin has clearance"
-        raise InputError(f"{path}: {said}; allowed: {', '.join(pins)}")
+        wrong = f"--pin {short(pin)}: no such pin" if pin else "--pin: missing; it says which pin has clearance"
+        raise InputError(f"{path}: {wrong}; allowed: {', '.join(pins)}")
     given = scenario.pins.get(chosen)
     others = {name: one for name, one in scenario.pins.items() if name != chosen}
     clearance = given if isinstance(given, ClearancePin) else None

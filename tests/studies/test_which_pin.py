@@ -151,6 +151,7 @@ def test_every_pin_of_ones_own_machine_is_loose_alone_and_with_all(tmp_path: Pat
     path = tmp_path / "my_shield.toml"
     path.write_text('machine = "two_leg_shield"\nduration_s = 0.5\n', encoding="utf-8")
     plan = planned(own_subject(path, "front_base"))
+    assert not plan.subject.is_slow  # all its pins are covered without the engine
     assert set(plan.pins) == set(PINS)
     cases = plan.cases()
     loose = {tuple(case.pins) for case in cases.values()}
