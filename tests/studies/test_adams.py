@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.integrate import solve_ivp
 
 from studies.__main__ import main
 from studies.adams.dataset import adams_dataset
@@ -204,6 +205,39 @@ def test_the_equations_are_those_of_our_runs(run: Result) -> None:
             found = evaluated(entities[entity].arguments[f"F{place}"], names)
             scale = np.abs(run[channel]).max()
             assert found == pytest.approx(run[channel][n], rel=1e-5, abs=2e-6 * scale), (channel, n)
+
+
+@pytest.mark.slow
+def test_solved_by_another_solver_it_falls_and_hits_as_our_run() -> None:
+    model = PlanarModel(READ)
+    size, start = 3 * len(model.parts), model.start()
+
+    def motion_of(t: float, state: np.ndarray) -> Motion:
+        at, rate = dict(start.position), dict(start.velocity)
+        for part, n in model.place.items():
+            at[part], rate[part] = state[n : n + 3], state[size + n : size + n + 3]
+        return Motion(at, rate, t, {1: float(state[-1])})
+
+    def rates(t: float, state: np.ndarray) -> np.ndarray:
+        motion = motion_of(t, state)
+        accelerations, _ = model.solved(motion)
+        follows = evaluated(READ["DIFF", 1].arguments["FUNCTION"], model.names(motion))
+        return np.concatenate([state[size:-1], *(accelerations[part] for part in model.parts), [follows]])
+
+    first = np.concatenate([*(start.position[part] for part in model.parts), np.zeros(size + 1)])
+    held = simulate(replace(RISE, duration=0.05, accuracy="reference"))
+    found = solve_ivp(
+        rates, (0.0, 0.05), first, method="LSODA", rtol=1e-9, atol=1e-10, t_eval=held.time, max_step=1e-3
+    )
+    assert (held[f"pin.{PIN}.depth"] > 1e-4).any()
+    for n, t in enumerate(held.time):
+        names = model.names(motion_of(t, found.y[:, n]))
+        for axis, value in (("x", "VARVAL(1)"), ("y", "VARVAL(2)")):
+            assert evaluated(value, names) == pytest.approx(held[f"pin.{PIN}.eccentricity_{axis}"][n], abs=2e-7)
+    forces = [
+        evaluated("VARVAL(17)", model.names(motion_of(t, found.y[:, n]))) for n, t in enumerate(held.time)
+    ]
+    assert max(forces) == pytest.approx(held[f"pin.{PIN}.normal_force"].max(), rel=1e-3)
 
 
 def res_of(run: Result, columns: dict[str, str], data: Dataset, factor: float) -> str:
