@@ -117,7 +117,6 @@ def _engine_once(scenario: Scenario, steps: tuple[float, int]) -> float:
 OURS_COMPILED, OURS_ENGINE = "support-exudyn, compiled", "support-exudyn on Exudyn"
 ONCE = ", single run"
 STOCK = "Exudyn, stock recipe"
-_TOLERANCES = {f"tolerance {x:.0e}": x for x in (1e-3, 1e-4, 1e-5, 1e-6)}
 _ACCURACIES = {preset: preset for preset in PRESETS}
 _IMPACTS = {f"{n} steps an impact": (step, n) for step, n in ((1e-3, 64), (1e-3, 256), (5e-4, 512))}
 _BLUE, _LIGHT_BLUE = ("#0072B2", "o"), ("#56B4E9", "o")  # of this program

@@ -90,9 +90,8 @@ def _draw(
 def influence_figures(results: Results) -> dict[str, Figure]:
     """All figures of section 3, by file name."""
     label = "angular acceleration\n[deg/s²]"
-    smooth = {
-        case: look for case, look in INFLUENCE.items() if case != IDEAL_DRY
-    }  # friction moves no ideal pin
+    # friction moves no ideal pin
+    smooth = {case: look for case, look in INFLUENCE.items() if case != IDEAL_DRY}
     return {
         "fig5_pin_force": split_figure(results, rise.FORCE, 1e-3, "pin force [kN]"),
         "fig3_angular_velocity": window_figure(results, smooth, rise.PAPER, (0.0, rise.END)),

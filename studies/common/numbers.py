@@ -164,7 +164,7 @@ def number_table(numbers: Sequence[Number]) -> Sheet:
     )
 
 
-def said(number: Number, scale: float = 1.0, unit: str | None = None, most: int = DIGITS) -> str:
+def stated(number: Number, scale: float = 1.0, unit: str | None = None, most: int = DIGITS) -> str:
     """A number in a sentence: value, error and unit, in at most so many digits; scale: to another unit."""
     text = rounded(scale * number.value, scale * number.numerical_error, most)
     shown = number.unit if unit is None else unit
@@ -173,13 +173,13 @@ def said(number: Number, scale: float = 1.0, unit: str | None = None, most: int 
 
 def short(number: Number, scale: float = 1.0, unit: str | None = None) -> str:
     """A number in a sentence, in three digits."""
-    return said(number, scale, unit, 3)
+    return stated(number, scale, unit, 3)
 
 
 def against(number: Number, other: Number) -> str:
     """How much a number is above or below another, in per cent of the other, to its error.
 
-    What both errors leave open is said so: "the same within 0.6 %".
+    What both errors leave open is stated so: "the same within 0.6 %".
     """
     ratio = number.value / other.value
     change = 100.0 * (ratio - 1.0)

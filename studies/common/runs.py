@@ -68,8 +68,8 @@ def impacts(result: Result, pin: str) -> int:
 
 def file_name(case: str) -> str:
     """The name of the file of a case, without its ending: "1.5 mm, mu_d = 0.25" is kept as 1p5mm_mu0p25."""
-    for said, written in SHORT.items():
-        case = case.replace(said, written)
+    for text, written in SHORT.items():
+        case = case.replace(text, written)
     return case
 
 

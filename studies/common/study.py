@@ -157,10 +157,8 @@ class Study:
         with style.look():
             self.work()
             drawings = self.figures()
-        for (
-            case,
-            run,
-        ) in self.saved().items():  # without the coarser ones of chosen steps, which treble the file
+        for case, run in self.saved().items():
+            # without the coarser ones of chosen steps, which treble the file
             kept = run if run.goal is not None else replace(run, coarser=None)
             kept.save(out / "runs" / f"{file_name(case)}.h5")
         jobs = [(drawing, out, name, self.live.get(name, ())) for name, drawing in drawings.items()]

@@ -46,7 +46,7 @@ def templates() -> Environment:
         lstrip_blocks=True,
     )
     surroundings.filters["fmt"] = format
-    tools = (numbers.said, numbers.against, numbers.percent, rounded, numbers.short, numbers.off)
+    tools = (numbers.stated, numbers.against, numbers.percent, rounded, numbers.short, numbers.off)
     for tool in tools:
         surroundings.globals[tool.__name__] = surroundings.filters[tool.__name__] = tool
     return surroundings

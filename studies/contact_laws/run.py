@@ -139,7 +139,7 @@ class ContactLaws(Study):
         return text_table(header, rows)
 
     def words(self) -> dict[str, object]:
-        """What is said of free impacts, and of the motion under each law."""
+        """Numbers of free impacts, and of the motion under each law."""
         found, joint = self.of_laws, self.joint
         bore_radius = joint.pin.contact.bearing.bore_radius
         power = {name: found[DELIVERED, f"{name} e={LOW:g}"].value for name in POWER_LAWS}

@@ -25,8 +25,8 @@ ORDER = ("unequal", "taken", "combined", "space", "added")  # the longest runs f
 GROUPS = ("added", "taken", "combined", "space")
 
 
-def said(chosen: Mapping[str, DetailScene]) -> dict[str, str]:
-    """What machine and drive the numbers are of, by family."""
+def families(chosen: Mapping[str, DetailScene]) -> dict[str, str]:
+    """Machine and drive of the numbers, by family."""
     return {
         STROKE: f"reference support, {chosen[PLAINEST].drive}",
         UNEQUAL: f"reference support on oil columns, {chosen[UNEQUAL_FULLEST].drive}, front columns "
@@ -50,7 +50,7 @@ class SceneDetailStudy(Study):
         runs = run_timed({scene.name: scene.scenario for scene in longest_first}, self.chosen.workers)
         self.measured = measures.measure(by_name, runs)
         self.numbers = measures.listed(self.measured)
-        self.tried = measures.table(self.measured, said(by_name))
+        self.tried = measures.table(self.measured, families(by_name))
         self.tried.save(self.chosen.out / TABLE)
 
     def figures(self) -> dict[str, Figure]:

@@ -127,4 +127,4 @@ def test_the_committed_table_is_of_these_scenes() -> None:
     for name, scene in chosen.items():
         assert dict(known[name].fields) == fields_of(scene.scenario)
         assert known[name].family == scene.family
-    assert dict(committed().said) == study.said(chosen)
+    assert dict(committed().said) == study.families(chosen)
