@@ -96,11 +96,13 @@ class Study:
 
     def cases(self) -> Mapping[str, Scenario]:
         """Scenarios by the name of their case."""
-        raise NotImplementedError
+        raise NotImplementedError(
+            f"{self.name}: allowed: a study with `cases` and `measures`, or its own `work`"
+        )
 
     def measures(self, run: Result) -> Measures:
         """Unit and measure of every number of a run, by name."""
-        raise NotImplementedError
+        raise NotImplementedError(f"{self.name}: allowed: a study with `measures`, or its own `work`")
 
     def ideal_of(self, case: str) -> str:
         """The case with ideal pins with which a case is compared."""
