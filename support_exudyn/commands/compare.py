@@ -182,10 +182,10 @@ def _report(checked: "CheckedScenario") -> list[str]:
     """Lines on the state of a scenario, what has changed, and with what else its baseline was made."""
     from support_exudyn.postprocessing.comparing.baselines import lines
 
-    told = [f"{checked.name}: {_state(checked)}", *lines(checked.changes, SHOWN)]
+    report = [f"{checked.name}: {_state(checked)}", *lines(checked.changes, SHOWN)]
     if checked.changes and checked.was is not None and checked.now is not None:
         was, now = checked.was.provenance, checked.now.provenance
         others = [key for key in was if key != "made_at" and was[key] != now.get(key)]
         words = ", ".join(f"{key} {was[key][:40]} (now {now.get(key, 'none')[:40]})" for key in others)
-        told += [f"made with {words}"] if words else []
-    return told
+        report += [f"made with {words}"] if words else []
+    return report

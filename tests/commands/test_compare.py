@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import math
 import re
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
@@ -83,6 +84,7 @@ NO_VALUE = "tip.x: {} has no value at 1 of 4 times"
     [
         ("reference.csv larger.csv", 0, "No tolerance was given"),
         ("reference.csv larger.csv --tolerance *=2%", 0, "All channels are within their tolerances."),
+        ("reference.csv larger.csv --tolerance tip.x=0.5mm,*=2%", 1, "tip.x: "),
         (
             "reference.csv larger.csv --tolerance tip.force=0.01kN",
             1,
@@ -94,6 +96,7 @@ NO_VALUE = "tip.x: {} has no value at 1 of 4 times"
         # gaps are reported and not judged; of the reference they are left out
         ("marked.csv empty.csv --tolerance tip.x=1mm", 1, NO_VALUE.format("empty.csv")),
         ("empty.csv marked.csv --tolerance tip.x=1mm", 0, NO_VALUE.format("empty.csv")),
+        ("marked.csv empty.csv --tolerance tip.x=1mm --after 0.15", 0, ""),
         ("marked.csv short.csv", 0, "compared are 0 to 0.1 s of 0 to 0.3 s of marked.csv, for"),
         # all that is allowed is within, whatever its digits; F[1] is itself, and no pattern
         ("share.csv percent.csv --tolerance a=0.5percent", 0, ""),
@@ -105,6 +108,8 @@ NO_VALUE = "tip.x: {} has no value at 1 of 4 times"
         ("reference.csv larger.csv compare.toml", 2, "allowed: --map compare.toml"),
         ("wide.csv wide.csv --figure a.png", 2, f"{MOST + 1} channels: allowed in a figure: {MOST}"),
         ("marked.csv same.csv Marker", 2, "Marker: is in no unit in marked.csv"),
+        ("marked.csv kind.csv pin.force", 2, "pin.force: is in kN in marked.csv, and in mm in kind.csv"),
+        ("marked.csv same.csv less.csv --tolerance pin.force=1%", 2, "pin.force: less.csv has no such channel"),
         ("marked.csv same.csv --tolerance pin.*=1%,tup.*=1mm", 2, "'tup.*': no such channel is compared"),
     ],
 )
@@ -175,9 +180,12 @@ def test_figure_and_page(folder: Path) -> None:
     assert not re.search(r"<(?:script|img|link)[^>]*(?:src|href)=\"(?!data:)", text)  # nothing from elsewhere
 
 
-def test_python_has_the_curves_and_refuses_a_single_file(folder: Path) -> None:
-    channel = compare_files("reference.csv", "larger.csv", tolerance="tip.x=1mm").pairs[0].channels["tip.x"]
+def test_python_has_the_curves_and_the_verdict(folder: Path) -> None:
+    found = compare_files("reference.csv", "larger.csv", tolerance="tip.x=1mm", channels=["tip.x"])
+    channel = found.pairs[0].channels["tip.x"]
+    assert (found.verdict, channel.verdict) == ("differs within tolerance", "differs within tolerance")
     np.testing.assert_allclose(channel.common.other, 0.101 * np.sin(6.0 * TIME), atol=1e-12)
+    assert math.isnan(channel.largest.error)
     load = compare_files("share.csv", "percent.csv").pairs[0].channels["load"]
     assert (load.unit, load.largest.value) == ("kg", pytest.approx(0.5))  # grams are no acceleration
     with pytest.raises(InputError, match="1 file: allowed: 2 or more"):

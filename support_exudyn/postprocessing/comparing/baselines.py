@@ -154,13 +154,16 @@ def _changed_keys(was: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[Ru
         )
 
 
-def _leaves(data: Mapping[str, Any], place: str = "") -> Iterator[tuple[str, Any]]:
-    """The items of nested data by their places in it, such as pins.B.friction."""
-    for key, item in data.items():
-        if isinstance(item, Mapping) and item:
-            yield from _leaves(item, f"{place}{key}.")
-        else:
-            yield f"{place}{key}", item
+def _leaves(data: Any, place: str = "") -> Iterator[tuple[str, Any]]:
+    """The items of nested data by their places in it, such as pins.B.friction or gravity[1]."""
+    if isinstance(data, Mapping) and data:
+        for key, item in data.items():
+            yield from _leaves(item, f"{place}.{key}" if place else str(key))
+    elif isinstance(data, (list, tuple)) and data:
+        for n, item in enumerate(data):
+            yield from _leaves(item, f"{place}[{n}]")
+    else:
+        yield place, data
 
 
 def lines(changes: Sequence[RunChange], most: int) -> list[str]:
@@ -205,7 +208,8 @@ def _text(values: Iterable[float], digits: int) -> str:
 
 def _numbers(text: str, unknown: float = math.nan) -> Series:
     """The numbers of a text; unknown: what stands for nan, infinite of errors."""
-    return np.nan_to_num(np.array(text.split(), dtype=np.float64), nan=unknown)
+    numbers = np.array(text.split(), dtype=np.float64)
+    return np.where(np.isnan(numbers), unknown, numbers)
 
 
 def read_baseline(path: Path) -> KeptRun:

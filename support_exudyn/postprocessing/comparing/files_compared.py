@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 
 import numpy as np
@@ -70,7 +70,7 @@ class ComparedPair:
 
     @property
     def verdict(self) -> Verdict:
-        """As of several files."""
+        """The worst verdict of the channels with a tolerance; without any tolerance, of all channels."""
         return FilesCompared(self.reference, (self,)).verdict
 
     @property
@@ -141,14 +141,18 @@ def compare_files(
     mapping = mapping or CompareFile()
     mapping = replace(mapping, rate=mapping.rate or rate)
     files: list[ComparedFile] = []
+
+    def share_done(n: int, share: float) -> None:
+        progress((n + share) / len(sources))
+
     for n, source in enumerate(sources):
         name, mapped = f"run {n + 1}", MappedFile()
         if isinstance(source, Path):
             alike = {each for each in sources if isinstance(each, Path) and each.name == source.name}
             name, mapped = source.name if len(alike) == 1 else str(source), mapping.of(source)
             name = f"{name} ({n + 1})" if name in [file.name for file in files] else name
-        files.append(compared_file(source, name, mapped, channels))
-        progress((n + 1) / len(sources))
+        files.append(compared_file(source, name, mapped, channels, partial(share_done, n)))
+    progress(1.0)
     first, *rest = files
     asked = read_tolerances(tolerance) if isinstance(tolerance, str) else list(tolerance)
     tolerances = [*asked, *tolerances_of(mapping)]

@@ -139,13 +139,13 @@ def curve_measures(time: Values, reference: Values, other: Values) -> CurveMeasu
 
     Raises InputError if the lengths differ, or if the times do not increase.
     """
-    if not (time.shape == reference.shape == other.shape and (np.diff(time) > 0.0).all()):
-        raise InputError(
-            f"curves of shapes {reference.shape} and {other.shape} at times of shape {time.shape}: allowed: a "
-            "value at each time, and times [s] that increase"
-        )
+    shapes = [np.shape(curve) for curve in (time, reference, other)]
+    if len(shapes[0]) != 1 or len(set(shapes)) != 1:
+        raise InputError(f"times and curves are of shapes {shapes}; allowed: one value for each time")
+    if not (np.isfinite(time).all() and (np.diff(time) > 0.0).all()):
+        raise InputError("the times do not increase; allowed: finite times [s], each later than the one before")
     known = np.isfinite(reference) & np.isfinite(other)
-    t, r, c = time[known], reference[known], other[known]
+    t, r, c = (np.asarray(curve, dtype=np.float64)[known] for curve in (time, reference, other))
     if not t.size:
         return CurveMeasures()
     intervals = np.where(known[1:] & known[:-1], np.diff(time), 0.0)
@@ -174,7 +174,7 @@ def curve_measures(time: Values, reference: Values, other: Values) -> CurveMeasu
         r_squared=1.0 - _ratio(rms(d), spread) ** 2,
         magnitude_error=magnitude,
         phase_error=phase,
-        combined_error=math.sqrt(magnitude**2 + phase**2),
+        combined_error=math.hypot(magnitude, phase) if math.isfinite(phase) else math.nan,
         times=int(t.size),
     )
 
@@ -242,6 +242,7 @@ LEAST_OVERLAP = 0.5  # of the shorter curve
 ALIKE = 0.5  # correlation from which on curves are taken to be alike
 APART = 0.05  # of correlation: by how much another shift is worse, and the valley between both
 FEWEST_JOINT = 8  # samples of the overlap
+MOST_SAMPLES = 2**22
 FLAT = 1e-12  # share of the largest variance of a piece, below which a piece is taken to be constant
 
 
@@ -289,6 +290,10 @@ def time_shift(reference_time: Values, reference: Values, other_time: Values, ot
             "are not all equal"
         )
     spacing = min(float(np.median(np.diff(time))) for time, _ in known)
+    if max(np.ptp(time) for time, _ in known) > MOST_SAMPLES * spacing:
+        raise InputError(
+            f"more than {MOST_SAMPLES} samples of {spacing:g} s would be needed; allowed: a shorter piece"
+        )
     counts = [int(np.ptp(time) / spacing * (1.0 + 1e-6) + 1e-6) + 1 for time, _ in known]
     mine, its = (
         np.interp(time[0] + spacing * np.arange(count), time, values)

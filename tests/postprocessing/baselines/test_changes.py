@@ -61,6 +61,8 @@ def of_body(name: str, *fields: str) -> Scenario:
 
 
 PLANTED: Mapping[str, Callable[[], Scenario]] = {
+    "contact stiffness": lambda: rocker(stiffness_N_per_m_to_n=FACTOR * 1e10),
+    "friction": lambda: rocker(friction=FACTOR * 0.1),
     "gravity": lambda: replace(rocker(), gravity=(0.0, -FACTOR * 9.81)),
     "mass": lambda: of_body("rocker", "mass"),
 }
@@ -153,8 +155,10 @@ def test_chaos_is_compared_up_to_its_horizon() -> None:
     [
         ((1.0, 0.1), (1.19, 0.1), False),
         ((1.0, 0.1), (1.21, 0.1), True),
+        ((1.0, 0.0), (1.0 + 1e-15, 0.0), True),
         ((1.0, 0.1), (9.0, math.inf), False),  # not known
         ((1.0, 0.1), (math.nan, 0.1), True),
+        ((math.nan, 0.1), (math.nan, 0.1), False),
     ],
 )
 def test_what_exceeds_both_errors_has_changed(

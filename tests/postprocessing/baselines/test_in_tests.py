@@ -54,16 +54,22 @@ FINE = np.linspace(0.0, 1.0, 1001)
         # without a tolerance both errors are allowed
         (Estimate(1.05, 0.04, "N"), Estimate(1.0, 0.1, "N"), None, "agrees", 0.05),
         (Estimate(1.15, 0.04, "N"), Estimate(1.0, 0.1, "N"), None, "differs", 0.15),
+        (Estimate(1500.0, 1.0, "N"), Estimate(1.5, 1e-3, "kN"), None, "agrees", 0.0),
         (Estimate(1.1, math.inf, "N"), Estimate(1.0, 0.1, "N"), None, "not decided", 0.1),
         # a share is of a number's reference
+        (1.019, 1.0, 0.02, "differs within tolerance", 0.019),
         (1.021, 1.0, "2 %", "differs", 0.021),
+        (1e-9, 0.0, 0.01, "differs", 1e-9),
         (Estimate(0.0015, 0.0, "m"), 0.0017, "0.3 mm", "differs within tolerance", 2e-4),
         # an error that is larger than the tolerance decides nothing, unless the difference is larger still
+        (Estimate(1.0, 0.5, "N"), 1.1, 0.2, "not decided", 0.1),
         (Estimate(0.5, 1.1, "N"), 0.0, "1 N", "not decided", 0.5),  # it could be 1.6
         (Estimate(3.0, 1.1, "N"), 0.0, "1 N", "differs", 3.0),  # it is 1.9 at least
+        (Estimate(1.0, 0.0, "N"), 0.0, "1 N", "differs within tolerance", 1.0),
         (Estimate(math.nan, 0.0, "N"), 0.0, "1 N", "not decided", math.nan),
         # a share is of a curve's range
         (curve(OFF), curve(SINE), "2 %", "differs", 0.05),
+        (curve(OFF), curve(SINE), "3 %", "differs within tolerance", 0.05),
         (curve(FINE**2, time=FINE), curve(TIME**2), 1e-4, "agrees", 0.0),
         # where the reference has no value there is nothing to compare with
         (curve(TIME**2), curve(HOLES), 1e-4, "differs within tolerance", 0.0),
@@ -85,7 +91,8 @@ def test_what_is_close(now: Any, was: Any, allowed: float | str | None, verdict:
         (curve(TIME), curve(TIME, None), 0.1, "gives no unit"),
         (curve(TIME), 1.0, 0.1, "a curve cannot be compared with a number"),
         (1.0, {"a": 1.0}, 0.1, "cannot be compared; allowed:"),
-        *((1.0, 1.0, bad, "allowed:") for bad in ("2", "2 bananas", -0.1, math.nan, True)),
+        ("a text", 1.0, 0.1, "allowed:"),
+        *((1.0, 1.0, bad, "allowed:") for bad in ("", "2", "-1 %", "2 bananas", -0.1, math.nan, True, [1])),
     ],
 )
 def test_what_cannot_be_compared_is_refused(now: Any, was: Any, allowed: Any, said: str) -> None:
@@ -109,12 +116,18 @@ def test_a_run_is_close_to_one_with_other_steps(
         assert_close(heavier, run, channels=["pin.B.*"])
 
 
-def test_a_run_against_numbers_curves_and_files(run: Result, assert_close: AssertClose, tmp_path: Path) -> None:
+def test_a_run_beside_numbers_and_curves_by_name(run: Result, assert_close: AssertClose) -> None:
     force, x = run.numbers()["pin.B.force.mean"], run["middle.x"]
     reference = {"pin.B.force.mean": force.value, "middle.x": curve(1e3 * x, "mm", "middle.x", run.time)}
     assert_close(run, reference, 1e-6)
+    assert_close(run, {"pin.B.onset_1.speed": run.onsets["B"][0].speed}, 1e-6)
     with pytest.raises(AssertionError, match=r"force\.mean"):
         assert_close(run, {"pin.B.force.mean": 1.01 * force.value}, 1e-3)
+    with pytest.raises(InputError, match="no such channel or number"):
+        assert_close(run, {"pin.B.force.median": 1.0}, 1e-3)
+
+
+def test_a_run_beside_files(run: Result, assert_close: AssertClose, tmp_path: Path) -> None:
     run.save(tmp_path / "run.h5")
     assert_close(run, tmp_path / "run.h5")
     rows = "".join(f"{t},{1e3 * x:.4f}\n" for t, x in zip(run.time, run["middle.x"], strict=True))
@@ -126,7 +139,7 @@ def test_a_run_against_numbers_curves_and_files(run: Result, assert_close: Asser
     assert_close(run, channels, 1e-6, channels=["middle.*"])  # channels alone, also called .h5
 
 
-@pytest.mark.parametrize("bad", [None, "no_file.csv", {}, 1.0])
+@pytest.mark.parametrize("bad", [None, "no_file.csv", {}, 1.0, [1.0]])
 def test_what_is_no_reference_is_refused(bad: object, run: Result) -> None:
     with pytest.raises(InputError, match=r"no such channel or number .*; did you mean 'pin\.B\.force'"):
         closeness(run, {"pin.B.forc": 1.0}, 0.1)
@@ -161,10 +174,12 @@ def test_only_what_is_named_is_written(tmp_path: Path) -> None:
 def test_only_results_and_numbers_with_errors_are_kept(simulate_cached: SimulateCached, tmp_path: Path) -> None:
     assert compared({"a": FORCE, "b": LARGER}, tmp_path, "*", name="one[x/y]")[1]
     assert (tmp_path / "baseline" / "one_x_y.json").exists()
-    plain = simulate_cached(replace(rocker(0.002), accuracy=None))
-    for item in (1.0, {"a": 1.0}, None, plain):
-        with pytest.raises(InputError, match="allowed:"):
+    for item in (1.0, {"a": 1.0}, None):
+        with pytest.raises(InputError, match="cannot be a baseline; allowed:"):
             compared(item, tmp_path, name="other")
+    plain = simulate_cached(replace(rocker(0.002), accuracy=None))
+    with pytest.raises(InputError, match=r"has no numerical errors, .*; allowed: a run with an accuracy"):
+        compared(plain, tmp_path)
 
 
 # --- runs that are kept ---

@@ -9,7 +9,11 @@ import numpy as np
 import pytest
 
 from support_exudyn import compare_files
-from support_exudyn.postprocessing.comparing.mapping import read_compare_file, read_tolerances
+from support_exudyn.postprocessing.comparing.mapping import (
+    read_compare_file,
+    read_tolerances,
+    tolerance,
+)
 from user_forces import InputError
 
 WHOLE = """
@@ -53,6 +57,7 @@ def written(folder: Path, text: str, name: str = "compare.toml") -> Path:
             '[files."other.csv"]\n[files."seen.csv".units]\na = "?"\n',
             ("other.csv: no file of this name is compared", "files.seen.csv.units.a = '?': allowed: a unit"),
         ),
+        ('[tolerances]\n"tip.*" = "2"\n', ("tolerances: 'tip.*' = '2': allowed: a share",)),
     ],
 )
 def test_faults_are_reported_together(text: str, parts: tuple[str, ...], tmp_path: Path) -> None:
@@ -119,8 +124,10 @@ def test_a_column_that_is_missing_or_without_unit(
     ("text", "channel", "unit", "extent", "allowed"),
     [
         ("2%", "a.force", "N", 5e3, 100.0),
+        ("0.1mm", "a", "m", 0.0, 1e-4),
         ("1deg", "a", "rad", 0.0, math.pi / 180.0),
         ("3e-2 m/s", "a=b", "m/s", 1.0, 0.03),
+        ("2%", "a", "N", 0.0, 0.0),  # a share of a reference that is constant: only what is equal is within
     ],
 )
 def test_what_is_allowed_is_in_si(text: str, channel: str, unit: str, extent: float, allowed: float) -> None:
@@ -130,10 +137,15 @@ def test_what_is_allowed_is_in_si(text: str, channel: str, unit: str, extent: fl
     assert several[1].in_si(channel, unit, extent) == pytest.approx(allowed, rel=1e-15)
 
 
-@pytest.mark.parametrize("text", ["", "tip", "=2%", "tip=2", "tip=%", "tip=-2%", "tip=1e999mm"])
+@pytest.mark.parametrize(
+    "text",
+    ["", " , ", "tip", "=2%", "tip=", "tip=2", "tip=%", "tip=-2%", "tip=nan%", "tip=1e999mm", "tip=a mm"],
+)
 def test_what_is_no_tolerance_is_refused(text: str) -> None:
     with pytest.raises(InputError, match="allowed: "):
         read_tolerances(text)
+    with pytest.raises(InputError, match=r"tolerance of tip\.x.*mm.*N"):
+        tolerance("tip.*", "1 mm").in_si("tip.x", "N", 1.0)
 
 
 # --- angles ---
@@ -151,11 +163,14 @@ def wrapped(values: np.ndarray, low: float = -180.0) -> np.ndarray:
     ("first", "second", "unit", "verdict"),
     [
         (TURNED, wrapped(TURNED, 0.0), "deg", "differs within tolerance"),
+        (wrapped(TURNED), wrapped(TURNED, 0.0), "deg", "differs within tolerance"),
         (SWUNG, wrapped(SWUNG), "deg", "differs within tolerance"),
         (TURNED, TURNED - 720.0, "deg", "differs within tolerance"),
         (TURNED, np.radians(wrapped(TURNED) + 360.0), "rad", "differs within tolerance"),
         (TURNED, 2.0 * TURNED, "deg", "differs"),  # apart by full turns at the end only
+        (TURNED, TURNED + 180.0, "deg", "differs"),
         (TURNED, TURNED + 360.0, "deg/s", "differs"),
+        (TURNED, wrapped(TURNED), "mm", "differs"),
     ],
 )
 def test_angles_are_compared_modulo_full_turns(

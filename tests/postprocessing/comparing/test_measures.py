@@ -13,6 +13,7 @@ from scipy import integrate, signal, stats
 
 from support_exudyn.postprocessing.comparing.compared_channel import ComparedColumn, compared
 from support_exudyn.postprocessing.comparing.measures import (
+    STATISTICS,
     CurveMeasures,
     compared_statistics,
     curve_measures,
@@ -77,9 +78,12 @@ PHASE = {"phase_error", "combined_error"}
         ([0, 1, 2], [3, 3, 3], [1, 2, 3], OF_RANGE),
         ([0, 1], [0, 0], [1, 2], OF_RANGE | PHASE | {"magnitude_error"}),
         ([0, 1], [1, 2], [0, 0], PHASE),
+        ([0, 1], [1, 2], [2, 4], set()),
         # known at single times: no integral has a value
         ([5], [1], [3], {"rms", "mean_reference", "phase_error"}),
+        ([0, 1, 2, 3], [1, NAN, 2, 2], [1, 1, np.inf, 2], {"rms", "mean_reference"}),
         ([0, 1], [NAN, 1], [1, NAN], {"largest", "largest_time", "rms"}),
+        ([], [], [], {"largest", "largest_time", "rms"}),
     ],
 )
 def test_what_has_no_value_is_nan(
@@ -96,11 +100,11 @@ def test_what_has_no_value_is_nan(
 @pytest.mark.parametrize(
     ("work", "said"),
     [
-        (lambda: curve_measures(FINE[:3], FINE[:3], FINE[:2]), r"shapes \(3,\) and \(2,\)"),
-        (lambda: curve_measures(np.zeros(2), np.zeros(2), np.zeros(2)), "times .* that increase"),
-        (lambda: time_shift(FINE, FINE, FINE, 0.0 * FINE), "not all equal"),
+        (lambda: curve_measures(FINE[:3], FINE[:3], FINE[:2]), r"shapes \[\(3,\), \(3,\), \(2,\)\]"),
+        (lambda: curve_measures(np.zeros(2), np.zeros(2), np.zeros(2)), "do not increase"),
         (lambda: on_common_times(FINE, FINE, FINE + 5.0, FINE), "s: none lies where both"),
         (lambda: on_common_times(FINE, FINE, FINE, FINE, 2.0, 3.0), "none lies .*between 2 and 3 s"),
+        (lambda: on_common_times(FINE, FINE, FINE[:0], FINE[:0]), r"\(none\)"),
     ],
 )
 def test_what_cannot_be_compared_is_refused(work: object, said: str) -> None:
@@ -161,24 +165,40 @@ def process(count: int, memory: float, random: np.random.Generator, mean: float 
     return found
 
 
-def test_the_interval_of_a_mean_is_that_of_the_blocks_wider_among_many() -> None:
+def test_the_same_process_is_equal_and_another_is_not() -> None:
+    random = np.random.default_rng(0)
+    first, second = process(4000, 0.6, random), process(4000, 0.6, random)
+    found = compared_statistics(first, second)
+    assert all(one.equal for one in found.values())
+    by = 3.0 * found["mean"].half
+    moved = compared_statistics(first, second + by)
+    assert moved["mean"].equal is False
+    assert moved["mean"].difference == pytest.approx(found["mean"].difference + by)
+    assert compared_statistics(first, 1.5 * second)["rms"].equal is False
+    many = compared_statistics(first, second, among=20)["mean"]
+    # of many statistics each interval is wider
+    alone, together = stats.t.ppf(0.5 + 0.5 * 0.95 ** np.array([1.0, 1.0 / 20.0]), 9)
+    assert many.half / found["mean"].half == pytest.approx(together / alone)
+
+
+def test_the_interval_of_a_mean_is_that_of_the_blocks() -> None:
     first, second = np.random.default_rng(2).normal(size=(2, 500))
     blocks = (second - first).reshape(10, 50).mean(axis=1)
-    for among in (1, 20):
-        known = stats.ttest_1samp(blocks, 0.0).confidence_interval(0.95 ** (1.0 / among))
-        found = compared_statistics(first, second, among)["mean"]
-        assert (found.difference - found.half, found.difference + found.half) == pytest.approx(known)
-    assert compared_statistics(first, 1.5 * second)["rms"].equal is False
+    known = stats.ttest_1samp(blocks, 0.0).confidence_interval(0.95)
+    found = compared_statistics(first, second)["mean"]
+    assert (found.difference - found.half, found.difference + found.half) == pytest.approx(known)
 
 
-def test_curves_that_do_not_vary_or_are_too_short() -> None:
-    same, other, short = np.full(100, 0.1), np.full(100, 0.2), np.arange(60.0)
-    assert all(each.equal for each in compared_statistics(same, same).values())
-    assert compared_statistics(same, other)["mean"].equal is False
+def test_curves_that_do_not_vary_that_are_too_short_or_not_known() -> None:
+    same = compared_statistics(np.full(100, 0.1), np.full(100, 0.1))
+    assert all(one.equal for one in same.values())
+    assert compared_statistics(np.full(100, 0.1), np.full(100, 0.2))["mean"].equal is False
+    short = np.arange(60.0)
     gaps = np.where(short < 11.0, math.nan, np.cos(short))
     found = compared_statistics(np.sin(short), gaps)["mean"]
     assert found.equal is None
     assert found.difference == pytest.approx((np.cos(short) - np.sin(short))[11:].mean())
+    assert compared_statistics(short[:1], short[:1]) == {}
 
 
 @pytest.mark.parametrize(("apart", "noise", "equal"), [(0.0, 1.0, True), (0.5, 1.0, False), (5.0, 0.0, False)])
@@ -200,7 +220,7 @@ def test_intervals_hold_the_truth_as_often_as_measured(count: int, memory: float
     random = np.random.default_rng(count)
     drawn = ([process(count, memory, random) for _ in range(2)] for _ in range(200))
     found = [compared_statistics(*pair) for pair in drawn]
-    for name in ("mean", "rms"):
+    for name in STATISTICS:
         assert sum(bool(each[name].equal) for each in found) >= least / 100.0 * len(found), name
 
 
@@ -241,6 +261,11 @@ def test_noise_moves_a_shift_by_a_little(noise: float, least: float) -> None:
 )
 def test_a_shift_that_is_not_sure(first: np.ndarray, second: np.ndarray) -> None:
     assert not time_shift(SECOND, first, SECOND, second).is_sure
+
+
+def test_what_has_no_shift_is_refused() -> None:
+    with pytest.raises(InputError, match="not all equal"):
+        time_shift(SECOND, bump(SECOND), SECOND, np.zeros(SECOND.size))
 
 
 # --- rows ---
