@@ -108,8 +108,13 @@ def assert_close() -> AssertClose:
     return check
 
 
+@pytest.fixture(scope="session")
+def _used_baselines() -> set[Path]:
+    return set()
+
+
 @pytest.fixture
-def baseline(request: pytest.FixtureRequest) -> Baseline:
+def baseline(request: pytest.FixtureRequest, _used_baselines: set[Path]) -> Baseline:
     """Fail if a result or number has changed by more than both errors from its baseline.
 
     `baseline(item, name="")` takes a Result with errors, an Estimate, or Estimates by names. The baseline is
@@ -120,8 +125,13 @@ def baseline(request: pytest.FixtureRequest) -> Baseline:
     def check(item: Any, name: str = "") -> None:
         __tracebackhide__ = True
         from support_exudyn.postprocessing.comparing.in_tests import against_baseline, baseline_path
+        from user_forces.values.value import InputError
 
         path = baseline_path(request.path, f"{request.path.stem}.{name or request.node.name}")
+        if path in _used_baselines:
+            allowed = "a name of its own, baseline(it, 'NAME')"
+            raise InputError(f"{path.stem}: is compared already; allowed: {allowed}")
+        _used_baselines.add(path)
         report, written = against_baseline(item, path, request.config.getoption(OPTION))
         if written:
             request.node.user_properties.append((WRITTEN, report))
