@@ -162,11 +162,12 @@ def test_a_loose_pin_is_at_its_journal_and_pressed_back_into_its_bore(bore: str)
 def test_an_export_removes_its_earlier_files_and_nothing_of_others(tmp_path: Path) -> None:
     result = run("plane")
     to_vtu(result, tmp_path, Sampling(every=10))
-    (tmp_path / "machine_0.vtu").write_text("of others", encoding="utf-8")
+    for name in ("machine_0.vtu", "machine_99999.vtu"):
+        (tmp_path / name).write_text("of others", encoding="utf-8")
     to_vtu(result, tmp_path, Sampling(every=20))
     steps = len(Sampling(every=20).records(result.time))
     own = {f"{mesh}_{n:05d}.vtu" for mesh in ("machine", "pins") for n in range(steps)}
-    others = {"machine_0.vtu", "machine.pvd", "pins.pvd", "names.csv"}
+    others = {"machine_0.vtu", "machine_99999.vtu", "machine.pvd", "pins.pvd", "names.csv"}
     assert {path.name for path in tmp_path.iterdir()} == own | others
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import dataclasses
 import json
+import math
 from pathlib import Path
 
 import h5py
@@ -18,7 +19,7 @@ from support_exudyn.postprocessing.export.sampling import Sampling
 from support_exudyn.postprocessing.export.tables import to_csv, to_hdf5
 from support_exudyn.postprocessing.export.whole_set import whole_set
 from tests.cases.export_cases import by_vtk, run
-from user_forces import Value
+from user_forces import InputError, Value
 
 TIME = np.arange(101) * 0.01  # 100 records a second
 
@@ -34,6 +35,21 @@ def test_no_record_lies_nearer_to_a_frame_than_the_one_that_is_written(times: li
     for frame in np.arange(time[0], time[-1], 1.0 / rate):
         # the grids of this test and of the program differ by rounding of sums: 1000 steps of 1e-15
         assert np.abs(time[records] - frame).min() <= np.abs(time - frame).min() + 1e-11
+
+
+@pytest.mark.parametrize(
+    ("fields", "words"),
+    [
+        ({"every": 0}, "every"),
+        ({"frames_per_second": math.nan}, "frames_per_second"),
+        ({"every": 2, "frames_per_second": 25.0}, "one of them"),
+        ({"after": -1.0}, "after"),
+        ({"after": 0.5, "until": 0.4}, "until >= after"),
+    ],
+)
+def test_what_cannot_be_is_refused(fields: dict[str, float], words: str) -> None:
+    with pytest.raises(InputError, match=words):
+        Sampling(**fields)  # type: ignore[arg-type]
 
 
 KINDS = ("plane", "ideal")

@@ -5,6 +5,7 @@ between them.
 """
 
 import csv
+import re
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -27,7 +28,7 @@ from support_exudyn.simulation.result import Result
 Fields = Mapping[str, npt.NDArray[Any]]
 MESHES = Sampling(frames_per_second=25.0)
 ROLES = tuple(Role)
-STEPS = "machine_?????.vtu", "pins_?????.vtu"  # of an earlier export
+STEP = re.compile(r'file="((?:machine|pins)_\d{5,}\.vtu)"')  # in the index of an earlier export
 
 
 class MeshSeries(NamedTuple):
@@ -59,7 +60,7 @@ def to_vtu(
                                             for those of a pair.
         names.csv                           what the numbers body, role and pin stand for
 
-    Files of an earlier export are replaced, and removed if they were more.
+    Files of an earlier export are replaced, and removed if they were more; other files stay.
 
     Arguments:
         result: the run; it has recorded where its bodies are and how fast they move, and forces, depths and
@@ -80,7 +81,10 @@ def to_vtu(
     steps = {name: [f"{name}_{step:05d}.vtu" for step in range(len(records))] for name in meshes}
     files = ["names.csv", *(file for of_mesh in steps.values() for file in of_mesh)]
     indexes = [f"{name}.pvd" for name in meshes]
-    stale = [path.name for pattern in (*indexes, *STEPS) for path in folder.glob(pattern)]
+    stale = []  # files of others with such names, which no index of ours names, stay
+    for index in (folder / "machine.pvd", folder / "pins.pvd"):
+        if index.is_file() and (named := STEP.findall(index.read_text(encoding="utf-8", errors="replace"))):
+            stale += [index.name, *named]
     with whole_set(folder, [*files, *indexes], stale) as temporary:
         for step, record in enumerate(records):
             for name, mesh in meshes.items():
