@@ -48,11 +48,12 @@ def test_one_piece_is_the_fourier_transform_of_what_the_window_leaves() -> None:
 
 
 def test_records_off_the_grid_are_interpolated_and_a_last_one_left_out() -> None:
-    values, spacing = equally_spaced(np.append(TIME, TIME[-1] + 0.3e-3), np.append(TIME, 7.0))
-    assert spacing == pytest.approx(SPACING)
+    values, spacing, resampled = equally_spaced(np.append(TIME, TIME[-1] + 0.3e-3), np.append(TIME, 7.0))
+    assert (spacing, resampled) == (pytest.approx(SPACING), False)
     assert values == pytest.approx(TIME)
     uneven = np.sort(np.append(TIME, 1.2345))  # a record at a break
-    values, spacing = equally_spaced(uneven, 3.0 * uneven)
+    values, spacing, resampled = equally_spaced(uneven, 3.0 * uneven)
+    assert resampled
     assert values == pytest.approx(3.0 * (np.arange(values.size) * spacing))
 
 

@@ -21,6 +21,7 @@ TREND: Any = "linear"  # which is taken out of pieces; types of scipy lack it
 WIDTH = 1.5  # of the window in the frequency, in bins: what a pure tone is smeared over
 SEGMENTS = 4  # of equal length that a piece is cut into; overlapping by half, seven are averaged
 FEWEST = 16  # records that a spectrum is made of
+EVEN = 1e-6  # share of the spacing by which records may be off
 LETTERS = "ABC"  # of the peaks that are marked
 MANY = 1000  # frequencies from which on their axis is logarithmic
 CLOSE = 0.03  # of the width of a panel: letters closer would lie upon one another
@@ -36,7 +37,8 @@ class Spectrum:
     """The spectrum of a quantity of unit U that was sampled at equal times.
 
     frequency: (m,) [Hz]. amplitude: of a sine of each frequency [U], (m,). resolution: between two frequencies
-    [Hz]. spacing: between two samples [s]. averaged: how many overlapping segments.
+    [Hz]. spacing: between two samples [s]. averaged: how many overlapping segments. resampled: whether the
+    samples had to be interpolated to equal times.
     """
 
     frequency: Series
@@ -44,6 +46,7 @@ class Spectrum:
     resolution: float
     spacing: float
     averaged: int
+    resampled: bool
 
     @property
     def nyquist(self) -> float:
@@ -72,7 +75,7 @@ def spectrum(time: Series, values: Series, segments: int = SEGMENTS) -> Spectrum
 
     Raises InputError if the samples are too few.
     """
-    values, spacing = equally_spaced(time, values)
+    values, spacing, resampled = equally_spaced(time, values)
     length = values.size // segments
     if length < FEWEST:
         raise InputError(
@@ -81,19 +84,25 @@ def spectrum(time: Series, values: Series, segments: int = SEGMENTS) -> Spectrum
         )
     frequency, power = signal.welch(values, 1.0 / spacing, WINDOW, length, detrend=TREND, scaling="spectrum")
     averaged = (values.size - length) // (length - length // 2) + 1
-    return Spectrum(frequency, np.sqrt(2.0 * power), float(frequency[1]), spacing, averaged)
+    return Spectrum(frequency, np.sqrt(2.0 * power), float(frequency[1]), spacing, averaged, resampled)
 
 
-def equally_spaced(time: Series, values: Series) -> tuple[Series, float]:
-    """Samples at equal times, straight between those that are there, and their spacing [s].
+def equally_spaced(time: Series, values: Series) -> tuple[Series, float, bool]:
+    """Samples at equal times, their spacing [s], and whether they had to be interpolated.
 
-    A last one off the grid, at the end of a run, is left out. Raises InputError if the samples are too few.
+    A last one off the grid, at the end of a run, is left out.
     """
     if time.size < FEWEST:
         raise InputError(f"a spectrum of {time.size} records: allowed: at least {FEWEST}")
-    spacing = float(np.median(np.diff(time)))
-    even = np.arange(time[0], time[-1] + 0.25 * spacing, spacing)
-    return np.interp(even, time, values), spacing
+    steps = np.diff(time)
+    spacing = float(np.median(steps))
+    if abs(steps[-1] - spacing) > EVEN * spacing:
+        time, values, steps = time[:-1], values[:-1], steps[:-1]
+    # by the whole length: rounding of single times does not matter
+    if np.all(np.abs(steps - spacing) <= EVEN * spacing):
+        return values, float((time[-1] - time[0]) / (time.size - 1)), False
+    even = np.arange(time[0], time[-1] + 0.5 * spacing, spacing)
+    return np.interp(even, time, values), spacing, True
 
 
 def force_spectrum(
@@ -119,8 +128,8 @@ def force_spectrum(
     _draw_over_time(over_time, time, force)
     impacts = tuple(one for one in result.onsets.get(pin, ()) if time[0] <= one.time <= time[-1])
     text = (
-        f"Amplitude of a sine of each frequency, from records every {units.amount(found.spacing, 's', 4)}: "
-        f"Welch's mean of {found.averaged} "
+        f"Amplitude of a sine of each frequency, from records every {units.amount(found.spacing, 's', 4)}"
+        f"{' (interpolated to equal times)' if found.resampled else ''}: Welch's mean of {found.averaged} "
         f"overlapping pieces, without straight trend, Hann's window. Bins of "
         f"{units.amount(found.resolution, 'Hz')}, a tone is {WIDTH:g} bins wide; "
         f"nothing is known above {units.amount(found.nyquist, 'Hz', 4)}. In (b) 0 dB is the largest amplitude. "
@@ -166,7 +175,7 @@ def _draw(axes: Axes, found: Spectrum, colour: str) -> None:
 
 def _draw_over_time(axes: Axes, time: Series, force: Series) -> None:
     """Amplitudes over time and frequency, dark where they are large."""
-    values, spacing = equally_spaced(time, force)
+    values, spacing, _ = equally_spaced(time, force)
     length = max(FEWEST, min(256, values.size // 16))
     frequency, moments, power = signal.spectrogram(
         values, fs=1.0 / spacing, window=WINDOW, nperseg=length, noverlap=length // 2, detrend=TREND,
