@@ -98,13 +98,18 @@ def label(name: str) -> str:
 
 
 def side_by_side(found: Sequence[Estimate | None], most: int = DIGITS) -> tuple[str, ...]:
-    """Unit, and numbers of several runs in it with their errors, of at most so many digits; None: empty."""
+    """Unit, and numbers of several runs in it with their errors, of at most so many digits; None: empty.
+
+    An infinite error is not known; nor is NaN, that of a run without errors, which is not printed.
+    """
     there = [one for one in found if one is not None]
     unit = readable(there[0].unit, max(abs(one.value) for one in there))
-    shown = (
-        "" if one is None else rounded(unit.scale * one.value, unit.scale * one.error, most) for one in found
-    )
-    return unit.name, *shown
+
+    def shown(number: Estimate) -> str:
+        text = rounded(unit.scale * number.value, unit.scale * number.error, most)
+        return f"{text} ± not known" if math.isinf(number.error) else text
+
+    return unit.name, *("" if number is None else shown(number) for number in found)
 
 
 def with_error(found: Estimate) -> tuple[str, str]:
@@ -122,7 +127,7 @@ def rounded(value: float, error: float, most: int = DIGITS) -> str:
 
     An error below the last of these digits is not printed: all printed digits are right.
     """
-    if not math.isfinite(error):
+    if not math.isfinite(error) or not math.isfinite(value):
         return f"{value:.{most}g}"
     if error == 0.0:
         return f"{value:.9g}" if most == DIGITS else f"{value:.{most}g}"

@@ -37,6 +37,7 @@ from support_exudyn.simulation.impulses import impulses_of
 from support_exudyn.simulation.provenance import FORMULATION_ASKED
 from support_exudyn.simulation.reported_numbers import FORCE
 from support_exudyn.simulation.result import Result
+from user_forces.friction.laws import Frictionless
 from user_forces.values.value import InputError, Value
 
 Row = tuple[str, ...]
@@ -300,13 +301,14 @@ def how(result: Result) -> list[Row]:
 def unmet(result: Result) -> str:
     """What to change where the accuracy that was asked for was not met."""
     error, determined, changes = result.worst_error, "", []
+    contacts = result.scenario.contact_places.values()
     if 1.1 * error <= LARGEST_GOAL:
         changes.append(f"ask for what was reached (accuracy = {1.1 * error:.1g})")
-    changes += [
-        "a shorter duration_s, for every impact multiplies the errors of those before",
-        "a friction law with a less steep ramp (dynamic_speed)",
-        "means in place of largest values, which settle first",
-    ]
+    if any(result.onsets.values()):
+        changes.append("a shorter duration_s, for every impact multiplies the errors of those before")
+    if any(not isinstance(place.contact.friction, Frictionless) for place in contacts):
+        changes.append("a friction law with a less steep ramp (dynamic_speed)")
+    changes.append("means in place of largest values, which settle first")
     if math.isfinite(result.horizon):
         determined = (
             f"Up to {amount(result.horizon, 's')}, {agreed(result)} impacts, runs with shorter steps agree; "

@@ -143,6 +143,29 @@ def shown(path: Path, capsys: pytest.CaptureFixture[str], *args: str) -> str:
     return capsys.readouterr().out
 
 
+def test_show_has_what_was_run_how_and_what_came_out(runs: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    said = shown(runs / "with_clearance.h5", capsys)
+    result = Result.load(runs / "with_clearance.h5")
+    for words in (
+        "HydraulicSupport",
+        "1.5 mm clearance",
+        "restitution 0.9",
+        "coefficient 0.25",
+        "0.01 asked for",
+    ):
+        assert words in said
+    first = result.onsets["rear_base"][0]
+    assert f"{1e3 * first.time:.6g} ms" in said
+    assert f"1 of {len(result.onsets['rear_base'])}" in said
+    force = result.numbers()["pin.rear_base.force.mean"]
+    (row,) = [line.split() for line in said.splitlines() if line.strip().startswith("pin.rear_base.force.mean")]
+    # both to two digits of the error
+    assert float(row[1]) == pytest.approx(force.value / 1e3, abs=force.error / 1e3)
+    assert row[2] == "±"
+    assert float(row[3]) == pytest.approx(force.error / 1e3, rel=0.05)
+    assert row[4] == "kN"
+
+
 def test_all_impacts_are_shown_when_asked_for(runs: Path, capsys: pytest.CaptureFixture[str]) -> None:
     result = Result.load(runs / "with_clearance.h5")
     count = len(result.onsets["rear_base"])

@@ -52,7 +52,8 @@ def test_numbers_are_of_the_piece_that_was_asked_for() -> None:
         (Estimate(1.5e-3, 2e-9, "m"), ("mm", "1.50000")),
         (Estimate(20.0, 300.0, "N"), ("N", "20 ± 300")),
         (Estimate(2.0, 0.0, "N"), ("N", "2")),
-        (Estimate(2.0, math.inf, "N"), ("N", "2")),
+        (Estimate(2.0, math.inf, "N"), ("N", "2 ± not known")),
+        (Estimate(math.nan, 0.1, "N"), ("N", "nan")),
     ],
 )
 def test_a_number_has_the_digits_of_its_error(found: Estimate, row: tuple[str, ...]) -> None:
