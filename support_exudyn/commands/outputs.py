@@ -68,7 +68,7 @@ def render(
     after: cli.After | None = None,
     until: cli.Until | None = None,
     speed: float = 1.0,
-    movie: bool = True,
+    movie: Annotated[bool, Parameter(negative="--no-movie")] = True,
     size: Size = None,
     pin: str | None = None,
     still: float | None = None,
@@ -79,7 +79,7 @@ def render(
     Args:
         run: File of a run.
         out: Folder for the frames, with the movie next to it (RUN_frames). With --still: file of the picture.
-        frames_per_second: Of the movie, 0.1 to 240 (25).
+        frames_per_second: Of the movie, 0.1 to 50 (25).
         speed: Seconds of the run in a second of the movie (1); 0.01 is a hundred times slower, for impacts. A
             frame shows the record next to its time.
         movie: Make a GIF of the frames.

@@ -47,18 +47,23 @@ def test_the_installed_command_is_the_module() -> None:
     [
         ("show run.h5 --untl 3", 2, "--untl. Did you mean --until?"),
         ("shaw run.h5", 2, 'Did you mean "show"?'),
+        ("show", 2, "RUN requires an argument"),
         ("show run.h5 --after soon", 2, '--after: unable to convert "soon"'),
         ("run a.toml --accuracy 5", 2, "allowed: draft, standard, reference, or a relative error from"),
         ("baseline chek .", 2, 'Did you mean "check"?'),
         ("render run.h5 --size big", 2, "allowed: width and height in pixels, such as 1280x720"),
+        ("render no.h5 --no-movie", 1, "no.h5: no such file"),
         ("sweep a.toml --workers 0", 2, "--workers. Must be >= 1"),
         ("init four_column", 2, "did you mean four_column_support? allowed: four_column_support, two_leg"),
         ("show no.h5", 1, "no.h5: no such file"),
         ("sweep a.toml --workers 2 --scheduler tcp://x:1", 1, "allowed: without --scheduler"),
         ("chart no tip.x --tornado --histogram", 1, "allowed: one of them"),
         ("plot no.h5 --out x.xyz", 2, "--out. allowed: a file that ends in .png, .pdf, .svg or a folder"),
+        ("chart no tip.x --out x.jpg", 2, "allowed: a file that ends in .png, .pdf, .svg, .html or a folder"),
         ("chart no tip.x --out x.html", 1, "allowed: a file that ends in .html with --sliders"),
+        ("chart no --sliders --tornado", 1, "allowed: without --by, --histogram, --tornado"),
         ("render no.h5 --out x.png", 1, "--out x.png: allowed without --still: a folder"),
+        ("measure no.h5 --out x.xlsx", 2, "allowed: a file that ends in .csv"),
         ("run no.toml --out x.csv", 2, "allowed: a file that ends in .h5, .hdf5"),
         ("export no.h5 --out x.csv", 1, "--out x.csv: is a folder for all formats"),
         ("plot no.csv", 1, "is no run; allowed: with a run before it"),
@@ -73,6 +78,13 @@ def test_what_is_wrong_is_a_line_on_standard_error_and_an_exit_code(
     printed = capsys.readouterr()
     assert (printed.out, len(printed.err.splitlines())) == ("", 1)
     assert message in printed.err
+
+
+@pytest.mark.parametrize("place", [1, 2, 3])
+def test_options_stand_before_between_and_behind_names(place: int) -> None:
+    words = ["show", "rise.h5", "tip.*"]
+    _, bound, _ = app.parse_args([*words[:place], "--after", "3", *words[place:]])
+    assert (bound.args, bound.kwargs) == ((Path("rise.h5"), "tip.*"), {"after": 3.0})
 
 
 def test_json_has_no_number_that_is_none(capsys: pytest.CaptureFixture[str]) -> None:

@@ -16,7 +16,7 @@ from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.postprocessing.figures.selection import as_words, machine_name, nearest
 from support_exudyn.postprocessing.figures.style import CONTACT, FLIGHT, IDEAL, draw_pieces, pieces
-from support_exudyn.postprocessing.figures.units import readable
+from support_exudyn.postprocessing.figures.units import amount, readable
 from support_exudyn.postprocessing.look.shapes import COLOURS, Role
 from support_exudyn.postprocessing.render.pin_views import PinView, format_round, pin_views, usual
 from support_exudyn.postprocessing.render.stage import VIEW, Picture, Stage
@@ -135,6 +135,7 @@ class Painter:
         """Draw the force over time."""
         pin, (first, last), time = self._pins[0], self._times.window, self._result.time
         inside = (time >= first) & (time <= last)
+        inside[nearest(time, self._times.frames)] = True
         self._usual = usual(pin.size[inside])
         self._shown = readable("N", float(pin.size[inside].max(initial=0.0)))
         force = self._shown.scale * pin.size[inside]
@@ -159,7 +160,8 @@ class Painter:
         pressed = closed[1:] | closed[:-1]  # there is a force at one of both records
         draw_pieces(axes, time[inside], force, pressed, (3.0, 1.3), solid_capstyle="butt", clip_on=False)
         look: dict[str, Any] = {"frameon": False, "fontsize": 12, "ncols": 2, "borderaxespad": 0.0}
-        axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.02), **look)
+        if pressed.size:
+            axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.02), **look)
 
     # --- a frame ---
 
@@ -180,9 +182,14 @@ class Painter:
             self._draw_journal(view, centre, radius, record, number)
         if self._pins:
             size = float(self._pins[0].size[record])
-            text = f"{self._shown.scale * size:.{1 if self._shown.scale < 1.0 else 0}f} {self._shown.name}"
+            text = f"{self._shown.scale * size:.1f} {self._shown.name}"
+            if size > 0.0 and text.startswith("0.0 "):
+                text = amount(size, "N")
             place = self._words[0], self._words[1] + 28
             self._write(place, text, 30, color=INK if size > 0.0 else FAINT, va="top", weight="bold")
+            if ARROW * size > LONGEST * self._usual:
+                cut = self._words[0], self._words[1] + 100
+                self._write(cut, "the arrow is cut short", 13, color=FAINT, va="top")
             time, force = self._result.time[record], min(self._shown.scale * size, self._top)
             self._moving.append(self._strip.axvline(time, color=INK, lw=1.4))
             dot: dict[str, Any] = {"ms": 9, "mfc": INK, "mec": "white", "clip_on": False, "zorder": 5}

@@ -157,12 +157,20 @@ def _write_gif(path: Path, frames: Sequence[Path], rate: float) -> None:
     palette = Image.new("P", (1, 1))
     parts = [part for colour in ALWAYS for part in getrgb(colour)] + most
     palette.putpalette([255 if part > NEARLY_WHITE else part for part in parts])  # which Pillow rounds
-    first, *others = (shrunk(one).quantize(palette=palette, dither=Image.Dither.NONE) for one in frames)
+    pictures = (shrunk(one).quantize(palette=palette, dither=Image.Dither.NONE) for one in frames)
     # hundredths of a second that add up to the movie's length
     ends = np.round(100.0 * np.arange(len(frames) + 1) / rate).astype(int)
     durations = (10 * np.diff(ends)).tolist()
     with path.open("wb") as file:
-        first.save(file, format="GIF", save_all=True, append_images=others, duration=durations, loop=0)
+        next(pictures).save(
+            file,
+            format="GIF",
+            save_all=True,
+            append_images=pictures,
+            duration=durations,
+            loop=0,
+            optimize=False,
+        )
 
 
 def _is_ours(path: Path) -> bool:
