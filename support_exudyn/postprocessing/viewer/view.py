@@ -1,10 +1,10 @@
 """Exudyn's solution viewer on a run: its model with the look of the machine, moving as it did."""
 
-import os
+import subprocess
 import sys
+import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass
-from importlib.util import find_spec
 from math import pi
 from pathlib import Path
 from typing import Any
@@ -39,6 +39,20 @@ INSTEAD = (
     "`python -m support_exudyn render RUN` writes pictures without a window, and "
     "`xvfb-run -a python -m support_exudyn view RUN` opens the window on a display in memory"
 )
+LONGEST = 120.0  # [s] that trying may take, on a slow machine or a distant display
+TRY = """
+import tkinter
+tkinter.Tk().destroy()
+import exudyn
+container = exudyn.SystemContainer()
+container.visualizationSettings.view0.window.showWindow = False
+container.visualizationSettings.view0.window.renderWindowSize = [64, 64]
+container.renderer.Start()
+active = container.renderer.IsActive()
+container.renderer.Stop()
+if not active:
+    raise SystemExit("the engine's window did not open")
+"""
 MADE_WITH = ("exudyn", "support-exudyn")  # packages on which the model depends
 WINDOW = (1200, 750)  # width and height [pixels]
 FRAME, LASTS = 0.04, 10.0  # [s] of a frame, and that a run takes in the viewer by default
@@ -157,8 +171,6 @@ def open_viewer(
         _prepare(container.visualizationSettings, title)
         with quiet_engine():
             container.renderer.Start()
-            if not container.renderer.IsActive():
-                raise NoDisplayError(f"no window: the engine's window did not open; {INSTEAD}")
             zoom, centre = _camera(result, model.look)
             container.renderer.SetModelView(zoom, FROM_THE_SIDE, centre)
             SetSolutionState(mbs, shown, 0, SHOWN)
@@ -173,17 +185,28 @@ def open_viewer(
 
 
 def _check_display() -> None:
-    """Raise NoDisplayError unless windows can be opened here, as far as it is known before."""
+    """Raise NoDisplayError unless windows can be opened here. A process of its own tries, for it may crash."""
     for name in ("suppressRenderer", "suppressSolutionViewer", "suppressDialogs"):
         if getattr(exudyn.special.userInterface, name):
             raise NoDisplayError(
                 f"no window: exudyn.special.userInterface.{name} is set, perhaps by the variable "
                 "EXUDYN_SUPPRESS_UI_WINDOW_OPEN; allowed: windows where neither is"
             )
-    if sys.platform == "linux" and not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
-        raise NoDisplayError(f"no window: there is no display here; {INSTEAD}")
-    if find_spec("tkinter") is None:
-        raise NoDisplayError(f"no window: tkinter is not installed; {INSTEAD}")
+    with tempfile.TemporaryDirectory() as folder:  # where a crash may leave files
+        try:
+            tried = subprocess.run(
+                [sys.executable, "-c", TRY], cwd=folder, stdin=subprocess.DEVNULL, capture_output=True,
+                text=True, errors="replace", timeout=LONGEST,
+            )  # fmt: skip
+        except subprocess.TimeoutExpired:
+            raise NoDisplayError(f"no window: none opened within {LONGEST:g} s; {INSTEAD}") from None
+    if tried.returncode:
+        lines = [
+            f"the engine ended with code {tried.returncode}",
+            *f"{tried.stdout}\n{tried.stderr}".split("\n"),
+        ]
+        last = [line.strip() for line in lines if line.strip()][-1]
+        raise NoDisplayError(f"no window: {last}; {INSTEAD}")
 
 
 def _camera(result: Result, look: Look) -> tuple[float, list[float]]:
