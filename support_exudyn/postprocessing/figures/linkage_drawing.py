@@ -29,6 +29,7 @@ from user_forces.values.value import InputError, Vector2, short
 
 GREY, START, LOAD, MARK = "#777777", "#000000", style.PAPER, style.CONTACT
 SMALL, ARROW = 0.08, 0.12  # bodies without a name on them, arrow of a force: of the drawing's size
+NEAR = 0.15, 0.04  # pins closer than that, along x and y, of the drawing's size, have names on either side
 ALONG, ASIDE = 0.42, 8.0  # where the name of a bar stands: share of its length, and its distance [points]
 SUPPORT = [(0.0, 0.0), (-0.6, -1.0), (0.6, -1.0), (0.0, 0.0)]  # marker of a pivot on the ground
 HALO = [withStroke(linewidth=2.2, foreground="white")]
@@ -191,15 +192,22 @@ class LinkageDrawing:
     # --- names and loads ---
 
     def pin_names(self, position: Series) -> None:
-        """The names of pins at their places; of several pins at one place together."""
+        """The names of pins at their places; of several pins at one place together.
+
+        A name stands on the right of its pin, or on the left if another name stands on the right.
+        """
         together: dict[tuple[float, ...], list[str]] = {}
         for name, pin in self.linkage.pins.items():
             near = np.round(self.at(position, pin.second, pin.second_point) / (0.02 * self._size))
             together.setdefault(tuple(near.tolist()), []).append(name)
+        firsts = {names[0]: self.linkage.pins[names[0]] for names in together.values()}
+        places = {name: self.at(position, pin.second, pin.second_point) for name, pin in firsts.items()}
         for names in together.values():
-            pin, words = self.linkage.pins[names[0]], ", ".join(map(as_words, names))
-            place = self.at(position, pin.second, pin.second_point)
-            self._write(words, place, (4, 5), fontsize=7.5, zorder=7, path_effects=HALO)
+            apart = [(place - places[names[0]]) / self._size for place in places.values()]
+            is_left = any(0.0 < right < NEAR[0] and abs(up) < NEAR[1] for right, up in apart)
+            look: dict[str, Any] = {"fontsize": 7.5, "zorder": 7, "path_effects": HALO}
+            offset, look["ha"] = ((-4, 5), "right") if is_left else ((4, 5), "left")
+            self._write(", ".join(map(as_words, names)), places[names[0]], offset, **look)
 
     def names(self, position: Series) -> None:
         """The names of bodies on them, and of actuators along them."""
