@@ -129,9 +129,16 @@ def _still(runs: Mapping[str, Result]) -> tuple[ShownFigure | None, str]:
 
 
 def _telling_time(result: Result) -> tuple[float, str]:
-    """The record at which a clearance pin, or any pin, has the largest force [s], and that in words."""
-    pins = result.scenario.clearance_pins or result.scenario.linkage.pins
-    forces = {pin: result[f"pin.{pin}.force"] for pin in pins if f"pin.{pin}.force" in result.channels}
+    """When the pin with the largest force has it [s], and that in words; without forces the run's end.
+
+    At any step of the clearance pins, else at the records of all pins.
+    """
+    pins = result.scenario.clearance_pins
+    if loose := {pin: time for pin, time in result.largest_force_time.items() if pin in pins}:
+        pin = max(loose, key=lambda name: result.largest_force[name])
+        return min(loose[pin], float(result.time[-1])), f"when the force in {pin} is largest"
+    every = [pin for pin in pins or result.scenario.linkage.pins if f"pin.{pin}.force" in result.channels]
+    forces = {pin: result[f"pin.{pin}.force"] for pin in every}
     if not forces:
         return float(result.time[-1]), "at its end"
     pin = max(forces, key=lambda name: float(forces[name].max()))

@@ -108,7 +108,7 @@ def of_drawing(drawing: Figure, panels: Sequence[int] | Mapping[int, str]) -> Li
         axes = drawing.axes[number]
         lines = [line for line in axes.get_lines() if line.get_transform() == axes.transData]
         lines = [
-            line for line in lines if not str(line.get_label()).startswith("_") and np.size(line.get_xdata())
+            line for line in lines if str(line.get_label())[:1] not in ("", "_") and np.size(line.get_xdata())
         ]
         curves = tuple(_curve(line) for line in sorted(lines, key=lambda line: float(line.get_zorder())))
         label = panels[number] if isinstance(panels, Mapping) else axes.get_ylabel()
