@@ -5,7 +5,9 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
+from PIL import Image
 
 from support_exudyn.__main__ import main
 from tests.machine_files import OURS, written
@@ -33,7 +35,10 @@ def test_a_scenario_and_a_figure(tmp_path: Path, capsys: pytest.CaptureFixture[s
     assert main(["stand", str(scenario), "--figure", str(tmp_path / "figures")]) == 0
     figure = tmp_path / "figures" / "rise_stand.png"
     assert str(figure) in capsys.readouterr().out
-    assert figure.read_bytes().startswith(b"\x89PNG")
+    pixels = np.asarray(Image.open(figure).convert("L"))
+    assert 0.01 < (pixels < 200).mean() < 0.3
+    edge = np.concatenate([pixels[0], pixels[-1], pixels[:, 0], pixels[:, -1]])
+    assert edge.min() > 200  # nothing is cut off
 
 
 @pytest.mark.parametrize(
@@ -41,6 +46,7 @@ def test_a_scenario_and_a_figure(tmp_path: Path, capsys: pytest.CaptureFixture[s
     [
         (None, "strength: missing"),
         ("slider_crank", "it has no actuators"),
+        ("nothing", "there is none of this name"),
     ],
 )
 def test_what_has_no_strength_is_refused_in_a_line(
@@ -77,7 +83,9 @@ floor_mm = -50
     ("old", "new", "said"),
     [
         ("setting_pressure_MPa = 30", "setting_pressure_MPa = 50", "setting_pressure = 50 MPa"),
+        ("floor_mm = -50", "floor_mm = 5000", "strength.base.floor = 5 m: the common centre of mass is 1"),
         ("length_mm = 900 }", "length_mm = 5000 }", "strength.cylinders.front_column.stages[0].length"),
+        ("length_mm = 2000 }", "length_mm = 200 }", "stages: together 1.1 m long"),
         ("stroke_mm = 600", "stroke_mm = 3000", "ours.toml: stroke = 3 m: the linkage locks before"),
     ],
 )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import shlex
@@ -139,3 +140,21 @@ def shifted(machine: HydraulicSupport, stroke: float, offset: np.ndarray) -> np.
     kept = lengths(start, base[0])
     found = root(lambda x: lengths(x, base[0] + offset) - kept, start, tol=1e-12).x
     return turned(points["tip"], found[4:6], found[6]) - points["tip"]
+
+
+@pytest.mark.slow  # the runs of the page take half a minute
+def test_the_sweep_is_a_straight_line(folder: Path) -> None:
+    rows = (folder / "sizes_sweep" / "table.csv").read_text(encoding="utf-8").splitlines()
+    head = [json.loads(cell) for cell in rows[0].split(",")]
+    table = [dict(zip(head, row.split(","), strict=True)) for row in rows[1:]]
+    sizes = [float(row["pins.rear_base.clearance_mm"]) for row in table]
+    tips = [float(row["tip.x.mean_m"]) for row in table]
+    assert sizes == [0.5, 1.0, 1.5, 2.0]
+    line = np.polyfit(sizes, tips, 1)
+    # geometry is linear in so small a shift: what is left is of its second order and of the depth's change
+    np.testing.assert_allclose(tips, np.polyval(line, sizes), atol=2e-6)
+    assert -2.4e-3 < line[0] < -1.8e-3
+    # from 1 mm on friction sets the pin vibrating: its force swings by a half, but it does not part
+    peaks = [float(row["pin.rear_base.largest_force_N"]) for row in table]
+    assert peaks[0] < 26e3
+    assert all(36e3 < peak < 41e3 for peak in peaks[1:])

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from support_exudyn import Result, Scenario, machine, reference_support
+from support_exudyn import CubicStep, Result, Scenario, machine, reference_support, simulate
 from support_exudyn.postprocessing.instruments.sensors import Inclinometer, specific_force
 from support_exudyn.postprocessing.instruments.station import MeasuringStation, measure
 from tests import synthetic
@@ -71,6 +72,25 @@ def test_an_acceleration_that_grows_evenly_is_felt_exactly_to_both_ends() -> Non
     channels |= {"x": still, "y": still}
     run = synthetic.result(PLANE, TIME, {f"canopy.{name}": (one, "") for name, one in channels.items()})
     np.testing.assert_allclose(specific_force(run, "canopy")[:, 0], -8.0 * TIME, atol=1e-11)
+
+
+def test_a_run_at_rest_reads_as_its_angles_and_a_base_as_none() -> None:
+    result = simulate(replace(PLANE, duration=0.05, drive=CubicStep(start=1.0, end=2.0)))
+    for body in PLANE.linkage.bodies:
+        np.testing.assert_allclose(tilt(result, body=body), result[f"{body}.angle"], atol=1e-7)
+    np.testing.assert_array_equal(tilt(result, body="ground"), 0.0)
+
+
+def test_an_inclinometer_errs_in_motion_as_far_as_its_place_is_accelerated() -> None:
+    rise = CubicStep(stroke=0.2, start=0.0, end=0.5)
+    result = simulate(replace(PLANE, drive=rise, duration=0.5, step=5e-4))
+    x, y = (np.gradient(np.gradient(result[f"tip.{axis}"], PERIOD), PERIOD) for axis in "xy")
+    level = result["canopy.angle"]
+    # the same by another way: places differenced twice
+    exact = np.arctan2(x * np.cos(level) + (G + y) * np.sin(level), (G + y) * np.cos(level) - x * np.sin(level))
+    inner = slice(3, -3)
+    np.testing.assert_allclose(tilt(result, body="canopy", at="tip")[inner], exact[inner], atol=2e-5)
+    assert np.abs(exact - level)[inner].max() > 0.02
 
 
 # --- in space ---

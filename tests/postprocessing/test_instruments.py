@@ -23,6 +23,7 @@ from support_exudyn.postprocessing.instruments.sensors import (
 from support_exudyn.postprocessing.instruments.station import (
     MeasuringStation,
     measure,
+    read_station,
     usual_station,
     write_measured,
 )
@@ -65,7 +66,7 @@ def second_order(t: np.ndarray, w: float) -> np.ndarray:
 
 
 @pytest.mark.parametrize(("order", "response"), [(1, first_order), (2, second_order)])
-@pytest.mark.parametrize("corner", [0.7, 40.0])
+@pytest.mark.parametrize("corner", [0.7, 5.0, 40.0])
 def test_a_filter_answers_a_step_as_its_closed_form(order: int, response: object, corner: float) -> None:
     # a straight line between two records: the step is a ramp, whose answer is a difference of integrals
     h = 1e-3
@@ -74,6 +75,15 @@ def test_a_filter_answers_a_step_as_its_closed_form(order: int, response: object
     w, t = 2.0 * math.pi * corner, TIME - 0.2
     exact = 1.0 + 2.0 * (response(t, w) - response(t - h, w)) / h
     np.testing.assert_allclose(found, exact, rtol=0.0, atol=1e-10)
+
+
+@pytest.mark.parametrize("order", [1, 2, 4, 8])
+def test_a_wave_at_the_corner_loses_three_decibels_and_a_constant_nothing(order: int) -> None:
+    time = np.arange(20000) * 1e-3
+    wave = np.stack([np.sin(2.0 * math.pi * 2.0 * time), np.full(time.size, -7.0)], axis=-1)
+    late = LowPass(order=order, corner=2.0).filtered(wave, 1e-3)
+    assert np.abs(late[10000:, 0]).max() == pytest.approx(1.0 / math.sqrt(2.0), rel=2e-4)
+    np.testing.assert_array_equal(late[:, 1], -7.0)
 
 
 UNEVEN = np.array([0.0, 0.1, 0.3, 0.4])
@@ -106,6 +116,16 @@ def test_pressure_times_area_is_force() -> None:
     np.testing.assert_allclose(read(run, rod) * ring, np.maximum(-force, 0.0), rtol=1e-13)
 
 
+def test_the_bore_of_an_oil_column_is_its_own() -> None:
+    scenario = Scenario(machine=reference_support(), actuators={"front_column": OIL}, duration=1.0)
+    run = pushed(np.full(TIME.size, 5e5), scenario)
+    for gauge in (
+        PressureGauge(column="front_column"),
+        PressureGauge(column="front_column", bore=0.25, cylinders=2),
+    ):
+        np.testing.assert_allclose(read(run, gauge) * OIL.bore_area, 5e5, rtol=1e-14)
+
+
 def test_in_space_each_side_has_its_share_of_the_bore() -> None:
     scenario = Scenario(
         machine=reference_support(), actuators={"front_column": OIL}, duration=1.0, dimensions=3
@@ -114,9 +134,9 @@ def test_in_space_each_side_has_its_share_of_the_bore() -> None:
     run = synthetic.result(
         scenario, TIME, {"front_column_left.force": (force, "N"), "front_column.force": (2.0 * force, "N")}
     )
-    whole = PressureGauge(column="front_column", bore=0.25, cylinders=2)  # as the oil has it
-    for gauge in (PressureGauge(column="front_column_left"), PressureGauge(column="front_column"), whole):
-        assert read(run, gauge)[0] == pytest.approx(2e5 / (0.5 * OIL.bore_area), rel=1e-14)
+    left, both = (read(run, PressureGauge(column=name))[0] for name in ("front_column_left", "front_column"))
+    assert left == pytest.approx(2e5 / (0.5 * OIL.bore_area), rel=1e-14)
+    assert both == pytest.approx(left, rel=1e-14)
 
 
 def test_a_hydraulic_cylinder_tells_its_pressures() -> None:
@@ -135,6 +155,7 @@ def test_a_hydraulic_cylinder_tells_its_pressures() -> None:
         (PressureGauge(column="front_colum", bore=0.25), "no such actuator; did you mean 'front_column'"),
         (PressureGauge(column="rear_column", bore=0.25), "'rear_column.force': was not recorded"),
         (Inclinometer(body="canopy", at="front_base"), "no such place on canopy"),
+        (Inclinometer(body="canopy"), "'canopy.angle': was not recorded"),
     ],
 )
 def test_what_is_missing_is_asked_for(gauge: Instrument, said: str) -> None:
@@ -143,18 +164,11 @@ def test_what_is_missing_is_asked_for(gauge: Instrument, said: str) -> None:
     assert str(told.value).startswith("one: ")
 
 
-@pytest.mark.parametrize("side", ["length", "pressure"])
-def test_extension_is_measured_from_the_start_and_oil_by_its_bore(side: str) -> None:
+def test_extension_is_measured_from_the_start() -> None:
     start = REST.linkage.actuators["front_column"].start_length
     run = synthetic.result(REST, TIME, {"front_column.length": (start + TIME, "m")})
-    if side == "length":
-        found = read(run, ExtensionSensor(column="front_column", rate=1000.0))
-        np.testing.assert_allclose(found, TIME, atol=1e-14)
-        return
-    scenario = Scenario(machine=reference_support(), actuators={"front_column": OIL}, duration=1.0)
-    run = pushed(np.full(TIME.size, 5e5), scenario)
-    for gauge in (PressureGauge(column="front_column"), PressureGauge(**BORE, cylinders=2)):
-        np.testing.assert_allclose(read(run, gauge) * OIL.bore_area, 5e5, rtol=1e-14)
+    extension = read(run, ExtensionSensor(column="front_column", rate=1000.0))
+    np.testing.assert_allclose(extension, TIME, atol=1e-14)
 
 
 # --- samples, noise, digits, clock ---
@@ -219,6 +233,23 @@ low_pass = { order = 1, corner_Hz = 2.5 }
 noise_MPa = 0.05
 resolution_MPa = 0.1
 """
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("corner_Hz = 2.5", "corner_Hz = 0", "corner_Hz = 0: allowed: > 0"),
+        ("noise_MPa", "noise", "is written with its unit; allowed: noise_MPa"),
+        ("seed = 3", "seed = -1", "seed = -1: allowed: a whole number >= 0"),
+    ],
+)
+def test_a_wrong_file_is_told_with_its_key(tmp_path: Path, old: str, new: str, said: str) -> None:
+    path = tmp_path / "instruments.toml"
+    path.write_text(FILE.replace(old, new))
+    with pytest.raises(InputError) as told:
+        read_station(path)
+    assert str(told.value).startswith(str(path))
+    assert said in str(told.value)
 
 
 def test_the_command_writes_the_table(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from pathlib import Path
 
@@ -47,6 +48,21 @@ def test_the_page_has_all_its_parts_and_loads_nothing(page: Path) -> None:
     assert "pin.rear_base.depth [" in text
     assert "tip.x [mm]" in text
     assert elements.count("data:image/png") == 3  # machine, print of the channels, still
+
+
+def test_a_folder_takes_report_html_and_scripts_are_told_where(
+    runs: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def none(*_: object, **__: object) -> None:
+        raise RuntimeError("no renderer on this machine")
+
+    monkeypatch.setattr("support_exudyn.postprocessing.render.still", none)
+    assert main(["report", str(runs / "ideal.h5"), "--out", str(tmp_path / "new"), "--json"]) == 0
+    path = tmp_path / "new" / "report.html"
+    assert json.loads(capsys.readouterr().out) == {"report": str(path)}
+    text = path.read_text(encoding="utf-8")
+    assert "There is no rendered picture: no renderer on this machine" in text
+    assert "Numerical errors are not known" in text
 
 
 @pytest.mark.parametrize(
