@@ -135,12 +135,13 @@ class Painter:
         """Draw the force over time."""
         pin, (first, last), time = self._pins[0], self._times.window, self._result.time
         inside = (time >= first) & (time <= last)
-        inside[nearest(time, self._times.frames)] = True
-        self._usual = usual(pin.size[inside])
-        self._shown = readable("N", float(pin.size[inside].max(initial=0.0)))
+        seen = np.union1d(np.flatnonzero(inside), nearest(time, self._times.frames))  # frames may lie outside
+        sizes = pin.size[seen]
+        self._usual = usual(sizes)
+        self._shown = readable("N", float(sizes.max(initial=0.0)))
         force = self._shown.scale * pin.size[inside]
-        peak = float(force.max(initial=0.0))
-        self._top = min(CUT * usual(force), 1.08 * peak) if peak > 0.0 else 1.0
+        peak = self._shown.scale * float(sizes.max(initial=0.0))
+        self._top = min(CUT * self._shown.scale * self._usual, 1.08 * peak) if peak > 0.0 else 1.0
         self._strip = axes = self._axes(box)
         axes.set(xlim=(first, max(last, first + 1e-12)), ylim=(0.0, self._top))
         axes.spines[:].set_visible(False)
