@@ -13,8 +13,6 @@ from support_exudyn import (
     CubicStep,
     Result,
     Scenario,
-    Steady,
-    ravn_slider_crank,
     reference_support,
     simulate,
 )
@@ -29,10 +27,6 @@ SCENARIOS = {
     "compiled": replace(BASE, machine=reference_support(), formulation="compiled", actuators=oil_columns()),
     "space": replace(BASE, dimensions=3, duration=0.02, record_period=0.005),
     "accuracy": replace(BASE, accuracy="draft", channels=("tip.*",)),
-    "oil": replace(BASE, actuators=oil_columns(), start="settled"),
-    "crank": Scenario(
-        machine=ravn_slider_crank(), drive=Steady(rate=500.0), duration=0.01, step=1e-5, record_period=1e-4
-    ),
 }
 
 
