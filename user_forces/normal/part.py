@@ -5,9 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import cache, cached_property
 
+from pydantic import model_validator
+
 from user_forces.kernel import Formula, kernel
 from user_forces.normal.law import NormalLaw
 from user_forces.values.value import Share, value
+
+MOST_PARTS = 5
 
 
 @value
@@ -25,6 +29,17 @@ class PartOf(NormalLaw):
 
     law: NormalLaw
     share: Share
+
+    @model_validator(mode="after")
+    def _has_a_whole(self) -> PartOf:
+        law: NormalLaw = self
+        for _ in range(MOST_PARTS):
+            if not isinstance(law, PartOf):
+                return self
+            law = law.law
+        raise ValueError(
+            f"law: is a part of a part, and so on; allowed: up to {MOST_PARTS - 1} parts of each other"
+        )
 
     @staticmethod
     @kernel
