@@ -6,6 +6,7 @@ import json
 from collections.abc import Mapping
 from typing import Any, Literal
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -18,6 +19,12 @@ from user_forces.values.value import Positive, Real, value
 
 def read(cls: type[Value], text: str) -> Any:
     return read_value(cls, parsed(text, "a.toml"), "a.toml")
+
+
+def refusal(cls: type[Value], text: str) -> str:
+    with pytest.raises(InputError) as caught:
+        read(cls, text)
+    return str(caught.value)
 
 
 def same(one: Value, other: Value) -> bool:
@@ -62,6 +69,28 @@ class Sheave(Value):
     tags: frozenset[str] = frozenset()
     law: NormalLaw | None = None
     whole: bool = False
+
+
+@value
+class Branch(Value):
+    """A test's own class with fields of its own kind.
+
+    Arguments:
+        size: [m], > 0.
+        first, rest: further branches.
+    """
+
+    size: Metres[Positive]
+    first: Branch | None = None
+    rest: tuple[Branch, ...] = ()
+
+
+def test_a_class_may_have_fields_of_its_own_kind() -> None:
+    tree = Branch(size=1.0, first=Branch(size=0.2), rest=(Branch(size=0.3),))
+    assert read(Branch, toml_text(table_of(tree))) == tree
+    assert refusal(Branch, "size_m = 1\nfirst.size_mm = -1") == "a.toml: first.size_mm = -1: allowed: > 0"
+    said = "a.toml: rest[0].sze_mm: unknown key; did you mean 'size_mm'"
+    assert refusal(Branch, "size_m = 1\nrest = [{sze_mm = 1}]").startswith(said)
 
 
 def test_numbers_are_rounded_once() -> None:

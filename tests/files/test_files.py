@@ -46,6 +46,14 @@ def test_an_error_leaves_the_old_file_and_nothing_else(tmp_path: Path, error: ty
     assert names(tmp_path) == ["run.json"]
 
 
+@pytest.mark.skipif(os.name == "nt", reason="no file modes on Windows")
+def test_file_may_be_read_like_any_other_new_file(tmp_path: Path) -> None:
+    (tmp_path / "plain").write_text("")
+    with whole_file(tmp_path / "whole") as temporary:
+        temporary.write_text("")
+    assert (tmp_path / "whole").stat().st_mode == (tmp_path / "plain").stat().st_mode
+
+
 def leave_half_done(path: Path, within: Path) -> None:
     """Fail in the middle of writing."""
     with whole_file(path, within, lasting=False) as temporary:

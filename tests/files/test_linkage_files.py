@@ -23,6 +23,7 @@ from support_exudyn import (
 from support_exudyn.files.machines import shipped
 from support_exudyn.files.scenarios.scenario_file import scenario_text
 from tests.cases.linkage_text import linkage_text
+from user_forces import InputError
 
 CRANK_ROCKER = """
 kind = "linkage"
@@ -278,3 +279,13 @@ def test_springs_torques_and_forces_act_where_the_linkage_starts(tmp_path: Path)
     path = tmp_path / "whole.toml"
     path.write_text(scenario_text(result.scenario), encoding="utf-8")
     assert read_scenario(path) == result.scenario
+
+
+def test_drives_that_the_linkage_cannot_follow_are_refused(tmp_path: Path) -> None:
+    # a double rocker: the longest and the shortest together are longer than the other two
+    text = CRANK_ROCKER.replace("length_mm = 300", "length_mm = 200").replace(
+        "B = [365, 300]", "B = [300, 250]"
+    )
+    text = text.replace("{ crank = 0 }", "{ crank = 90 }").replace("length_mm = 400", "length_mm = 200")
+    with pytest.raises(InputError, match="drive"):
+        Scenario(machine=built(tmp_path, text), drive=Steady(rate=-60.0), duration=0.1)

@@ -50,6 +50,8 @@ def read_adams_results(path: Path, asked: Asked) -> SeriesFile:
                 places = _wanted(path, known, asked)
                 titles = [known[n] for n in places]
             elif name == "Step" and element.get("type", "") != SKIPPED:
+                if not titles:
+                    raise _wrong(path, "a step before the map of steps", "the map first")
                 steps += 1
                 words = (element.text or "").split()
                 if len(words) != width:
@@ -57,7 +59,9 @@ def read_adams_results(path: Path, asked: Asked) -> SeriesFile:
                 try:
                     numbers.extend([float(words[n]) for n in places])
                 except ValueError:
-                    raise _wrong(path, f"step {steps} has what is no number", "such as 1.5e-3") from None
+                    raise _wrong(
+                        path, f"step {steps} has what is no number", "numbers such as 1.5e-3"
+                    ) from None
     except ElementTree.ParseError as error:
         line, column = error.position
         where = f"{path}: line {line}, column {column + 1}"
@@ -99,7 +103,9 @@ def _elements(path: Path, asked: Asked, analyses: list[str]) -> Iterator[tuple[s
             if name == "Analysis" and event == "start":
                 analyses.append(element.get("name", ""))
                 wanted = analyses[0] if asked.analysis is None else asked.analysis
-                chosen = analyses[-1] == wanted and wanted not in analyses[:-1]
+                chosen = analyses[-1] == wanted
+                if chosen and wanted in analyses[:-1]:
+                    raise _wrong(path, f"a second analysis {short(wanted)}", "one of each name")
             if chosen and event == "end":
                 yield name, element
             if event == "end" and name in ("Step", "StepMap", "Analysis"):

@@ -29,6 +29,8 @@ REFUSED = (  # how files begin that are no tables, what they are, and what to do
     (rb"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1", "an old workbook of Excel (.xls)", WORKBOOK),
     (rb"TDSm", "a TDMS file of LabVIEW", "its channels as CSV, as npTDMS and LabVIEW write it, or .lvm"),
     (rb"\x1f\x8b", "a compressed file (gzip)", UNPACKED),
+    (rb"BZh|\xfd7zXZ|7z\xbc\xaf|Rar!|\x28\xb5\x2f\xfd", "a compressed file", UNPACKED),
+    (rb"%PDF", "a PDF document", "the table as CSV"),
     (rb"PK\x03\x04", "an archive (zip)", f"{UNPACKED}; of spreadsheets CSV"),
     (rb"(?si)[^<]{0,9}<(!doctype html|html|table|meta|head|body|style)\b", "a page of HTML", WORKBOOK),
     (rb"(?s)[^<]{0,9}<.{0,900}schemas-microsoft-com:office:spreadsheet", "a workbook as XML", WORKBOOK),
@@ -84,8 +86,8 @@ def read_series(
         units, analysis, sheet, rate, names, progress: see `Asked`. Of large result files only the series that
             are wanted take memory.
 
-    Raises InputError for a file of no known kind, damaged or ambiguous, with what is wrong and where; OSError
-    if it cannot be read.
+    Raises InputError for a file of no known kind, damaged, ambiguous, or too large for the free memory, with
+    what is wrong and where; OSError if it cannot be read.
     """
     path = Path(path)
     if not path.exists():
@@ -106,4 +108,10 @@ def read_series(
     for name, value, reader in (("analysis", analysis, read_adams_results), ("sheet", sheet, read_workbook)):
         if value is not None and kind.read is not reader:
             raise InputError(f"{path}: {name} {short(value)}: a {kind.name} has none; allowed: none")
-    return kind.read(path, Asked(units, analysis, sheet, rate, names, progress))
+    try:
+        return kind.read(path, Asked(units, analysis, sheet, rate, names, progress))
+    except MemoryError:
+        size = f"{path.stat().st_size / 1e6:.3g} MB"
+        raise InputError(
+            f"{path}: has {size}, too much for the free memory; allowed: fewer rows or columns"
+        ) from None

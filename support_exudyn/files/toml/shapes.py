@@ -218,9 +218,14 @@ class _Shapes(GenerateJsonSchema):
     def of_fields(self) -> Mapping[str, Shape]:
         """The shapes, by the names of the fields."""
         schema: Any = self.cls.__pydantic_core_schema__  # type: ignore[attr-defined]
-        if schema["type"] == "definitions":
-            self.handle_invalid_for_json_schema(schema, "the class itself")
+        if schema["type"] == "definitions":  # of a class with fields of its own kind
+            own = schema["schema"]["schema_ref"]
+            schema = next(one for one in schema["definitions"] if one.get("ref") == own)
         return self.generate(schema)["properties"]  # type: ignore[no-any-return]
+
+    def definition_ref_schema(self, schema: Any) -> Any:
+        """The class itself."""
+        return {"group": GroupShape((self.cls,))}
 
     def generate_inner(self, schema: Any) -> dict[str, Any]:
         """The shape of what a schema of pydantic takes, its bounds by the words of JSON Schema."""

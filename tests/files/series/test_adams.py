@@ -68,6 +68,10 @@ def test_of_several_analyses_one_is_taken_and_told(tmp_path: Path) -> None:
     assert read_series(path, analysis="B").series["P.X"].values[-1] == 99.0
     with pytest.raises(InputError, match="has no analysis 'C'; allowed: one of its 2: 'A', 'B'"):
         read_series(path, analysis="C")
+    twice = written(tmp_path, start + one + one + "</Results>")
+    for analysis in (None, "A"):
+        with pytest.raises(InputError, match="a second analysis 'A'; allowed: one of each name"):
+            read_series(twice, analysis=analysis)
 
 
 def test_requests_are_read_with_the_units_of_their_system(tmp_path: Path) -> None:
@@ -86,6 +90,10 @@ def test_requests_are_read_with_the_units_of_their_system(tmp_path: Path) -> Non
     [
         (SMALL.partition("15<")[0], "line 11, column 1: no element found; allowed: the whole"),
         (SMALL.replace("4 5</Step>", "4</Step>"), "step 1 has 4 numbers; allowed: 5, as the map has"),
+        (
+            SMALL.replace("<StepMap", "<Step>1</Step><StepMap"),
+            "a step before the map of steps; allowed: the map first",
+        ),
         (SMALL.replace("4 5</Step>", "4 x</Step>"), "step 1 has what is no number"),
         (SMALL.replace('id="4"', 'id="3"'), "id 3 of component 'R.N'; allowed: each number"),
         (SMALL.replace('"TIME"', '"TIMES"'), "0 components TIME; allowed: one"),

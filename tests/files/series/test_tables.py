@@ -16,6 +16,7 @@ from support_exudyn.files.series.read import read_series
 from user_forces import InputError
 
 NAN = math.nan
+COMPRESSED = (b"BZh9", b"\xfd7zXZ", b"7z\xbc\xaf", b"Rar!", b"\x28\xb5\x2f\xfd")  # how such files begin
 Read = dict[str, tuple[str | None, list[float], list[float]]]
 
 
@@ -203,12 +204,26 @@ def test_a_unit_is_given_by_a_pattern(folder: Path) -> None:
         ),
         (b"TDSm" + bytes(99), "is a TDMS file of LabVIEW"),
         (b"\x1f\x8b\x08" + bytes(99), r"is a compressed file \(gzip\), .*unpacked"),
+        *((head + bytes(99), "is a compressed file, .*unpacked") for head in COMPRESSED),
+        (b"%PDF-1.4\n1 0 obj\nxref\n0 2\n", "is a PDF document, .*allowed: the table as CSV"),
+        (b"\x93NUMPY\x01\0" + bytes(99), "is of no kind that can be read; allowed: run of this program, "),
+        (b"SQLite format 3\0" + bytes(99), "is of no kind that can be read; allowed: run of this program, "),
+        (b"MDF     4.10\0" + bytes(99), "is of no kind that can be read; allowed: run of this program, "),
         (b"PK\x03\x04" + bytes(99), r"is an archive \(zip\), .*unpacked"),
     ],
 )
 def test_what_is_wrong_or_has_two_meanings_is_refused(folder: Path, text: str | bytes, message: str) -> None:
     with pytest.raises(InputError, match=message):
         read(folder, text)
+
+
+def test_a_file_that_does_not_fit_into_memory_is_refused(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(*given: object, **named: object) -> None:
+        raise MemoryError
+
+    monkeypatch.setattr(Path, "read_bytes", full)
+    with pytest.raises(InputError, match=r"csv: has .* MB, too much for the free memory; allowed: fewer rows"):
+        read(folder, "time_s,x\n0,1\n1,2\n")
 
 
 numbers = st.floats(-1e6, 1e6, allow_subnormal=False)
