@@ -132,11 +132,14 @@ class Store:
             return None
 
     def put(self, row: StoredRun) -> None:
-        """Keep a row."""
+        """Keep a row. Raises OSError that names the file if it cannot be written, as on a full disk."""
         assert self._file is not None
         self._places[row.key] = self._file.seek(0, 2)
-        self._file.write(row.to_text().encode("utf-8"))
-        self._file.flush()
+        try:
+            self._file.write(row.to_text().encode("utf-8"))
+            self._file.flush()
+        except OSError as error:
+            raise OSError(error.errno, error.strerror, str(self.rows)) from None
 
     def prune(self, keys: Collection[str]) -> int:
         """Remove the rows of all other keys. Returns of how many."""

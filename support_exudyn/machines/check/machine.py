@@ -111,7 +111,6 @@ def check_machine(data: MachineData, stroke: float | None = None) -> CheckReport
         loads=loads,
         ways=ways,
         transmission=transmission,
-        blocks=data.blocks,
     )
 
 

@@ -48,7 +48,6 @@ class CheckReport:
         loads: that act on it besides its weight, by name.
         ways: of its driven parts; none where driven parts do not determine the posture.
         transmission: transmission angles of these ways, by `DriveWay.drive`.
-        blocks: length along and height across of what slides in a guide [m], by guide.
     """
 
     name: str
@@ -63,7 +62,6 @@ class CheckReport:
     loads: Mapping[str, ActingLoad] = field(repr=False)
     ways: Sequence[DriveWay] = field(repr=False)
     transmission: Mapping[str, Sequence[TransmissionAngle]] = field(repr=False)
-    blocks: Mapping[str, tuple[float, float]] = field(repr=False)
 
     def lines(self) -> Iterator[str]:
         """The whole report as text."""
