@@ -109,6 +109,23 @@ def test_force_energy_and_depths_belong_together(
         assert law(near * depth, rate, speed) == pytest.approx(law(depth, rate, speed), abs=1e-8 * size)
 
 
+@every_law
+@settings(max_examples=often(15))
+@given(share=st.floats(1e-4, 0.9), speed=st.floats(1e-3, 2.0), swings=st.integers(1, 3))
+def test_a_cycle_of_depth_never_gives_work(law: NormalLaw, share: float, speed: float, swings: int) -> None:
+    phase = np.linspace(0.0, 1.0, 400 * swings + 1)[1:-1]
+    envelope, change = np.sin(math.pi * phase), math.pi * np.cos(math.pi * phase)
+    ripple = 1.0 + 0.3 * np.sin(2.0 * math.pi * swings * phase) ** 2
+    rippling = 0.6 * math.pi * swings * np.sin(4.0 * math.pi * swings * phase)
+    depth, rate = envelope * ripple, change * ripple + envelope * rippling
+    deepest = share * reach(law) / 1.3
+    time = deepest / speed
+    forces = [max(0.0, law(deepest * x, deepest * v / time, speed)) for x, v in zip(depth, rate, strict=True)]
+    work = float((np.array(forces) * rate * deepest).mean())
+    # the rule's error, of the largest force times the depth
+    assert work >= -2e-4 * max(forces) * deepest
+
+
 CONTACTS = [
     *(JournalContact(bearing=BEARING, normal=law) for law in LAWS),
     *(JournalContact(bearing=BEARING, normal=power_law(Exact), friction=law) for law in FRICTION_LAWS),
