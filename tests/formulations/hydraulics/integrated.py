@@ -1,4 +1,4 @@
-"""Masses on legs by scipy with every kink and jump located."""
+"""Masses on legs, and a block that falls on one, by scipy with every kink and jump located."""
 
 from __future__ import annotations
 
@@ -29,13 +29,25 @@ class Trajectory:
     def __getitem__(self, name: str) -> np.ndarray:
         return self.values[name]
 
+    def switched(self, name: str) -> list[float]:
+        return [t for t, what, _ in self.events if what == name]
+
+
+@dataclass(frozen=True)
+class Block:
+    """Falls through a height on the mass of the first leg, which is a linear spring there."""
+
+    mass: float
+    height: float
+    stiffness: float
+
 
 class Stand:
     """All legs of a scenario whose bodies are upright masses, one on each."""
 
-    def __init__(self, scenario: Scenario) -> None:
+    def __init__(self, scenario: Scenario, block: Block | None = None) -> None:
         self.gravity = -scenario.gravity[1]
-        self.pump = scenario.pump
+        self.pump, self.block = scenario.pump, block
         self.legs = []
         for name, model in scenario.actuators.items():
             body = scenario.linkage.bodies[scenario.linkage.actuators[name].head]
@@ -45,6 +57,8 @@ class Stand:
         self.start: State = {f"{leg.name}.{k}": v for leg in self.legs for k, v in leg.start.items()}
         if self.pump is not None:
             self.start |= {"pump.w": 0.0, "pump.in": 0.0}
+        if block is not None:
+            self.start |= {"block.y": block.height, "block.v": 0.0}
         self.names = list(self.start)
         self.scale = np.array([_scale(name) for name in self.names])
         self.end = scenario.duration
@@ -67,13 +81,19 @@ class Stand:
         if self.pump is not None:
             room = self.pump.pressure - pump
             found |= {"pump.gives": room, "pump.gives all": room - self.pump.pressure_range}
+        if self.block is not None:
+            found["block.touches"] = y[f"{self.legs[0].name}.e"] - y["block.y"]
         return found
 
     def rates(self, t: float, y: State, sides: Sides, after: bool) -> State:
         found: State = {}
         pump, drawn = self.pump_pressure(y), 0.0
-        for leg in self.legs:
-            here, mine = leg.rates(t, _of(leg.name, y), _of(leg.name, sides), pump, after)
+        push = 0.0
+        if self.block is not None and sides["block.touches"]:
+            push = self.block.stiffness * (y[f"{self.legs[0].name}.e"] - y["block.y"])
+        for n, leg in enumerate(self.legs):
+            on_top = push if n == 0 else 0.0
+            here, mine = leg.rates(t, _of(leg.name, y), _of(leg.name, sides), pump, after, on_top)
             found |= {f"{leg.name}.{key}": value for key, value in here.items()}
             drawn += mine
         if self.pump is not None:
@@ -81,6 +101,8 @@ class Stand:
             q = self.pump.flow * (1.0 if sides["pump.gives all"] else share)
             found["pump.in"] = q
             found["pump.w"] = found["pump.in"] - drawn
+        if self.block is not None:
+            found["block.y"], found["block.v"] = y["block.v"], push / self.block.mass - self.gravity
         return found
 
     # --- integration ---

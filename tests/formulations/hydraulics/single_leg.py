@@ -253,8 +253,10 @@ class Leg:
 
     # --- rates ---
 
-    def rates(self, t: float, y: State, sides: Sides, pump_pressure: float, after: bool) -> tuple[State, float]:
-        """Rates of all states, and what is drawn from the pump, as mass."""
+    def rates(
+        self, t: float, y: State, sides: Sides, pump_pressure: float, after: bool, on_top: float = 0.0
+    ) -> tuple[State, float]:
+        """Rates of all states, and what is drawn from the pump, as mass; on_top: force pushing down."""
         p = self.pressures(self.lawful(t, y), sides)
         d = dict.fromkeys(y, 0.0)
         out = self._valve_flow("y", self.model.yield_valve, p["p"], y, d, sides)
@@ -279,7 +281,7 @@ class Leg:
             below -= stribeck(seal, y["sr"]) + (self.damping + stage.damping) * y["sr"]
             d["s"], d["sr"] = y["sr"], (below - force) / stage.tube_mass
             self._foot_valve(p, y, d, sides)
-        d["e"], d["v"] = y["v"], force / self.mass - self.gravity
+        d["e"], d["v"] = y["v"], (force - on_top) / self.mass - self.gravity
         return d, drawn
 
     def _valve_flow(

@@ -16,6 +16,7 @@ from scipy.optimize import brentq
 from support_exudyn import (
     FallingBlock,
     OilColumn,
+    Poppet,
     Result,
     Scenario,
     SolverSettings,
@@ -23,6 +24,7 @@ from support_exudyn import (
     bore_area,
     simulate,
 )
+from tests.formulations.hydraulics.integrated import Block, Stand, Trajectory
 from tests.formulations.hydraulics.leg_cases import LENGTH, Uprights
 
 VALVE = YieldValve(opening_pressure=1e7, rated_flow=0.1, rated_overpressure=1e6)  # 1e-7 m^3/s/Pa
@@ -68,6 +70,14 @@ def scene(case: Struck, record: float = COARSE) -> Scenario:
     )
 
 
+def by_scipy(case: Struck) -> Trajectory:
+    """Without the block, which the program counts among the bodies."""
+    alone = replace(scene(case), loads={})
+    first = np.floor(np.sqrt(2.0 * case.height / 9.81) / COARSE)
+    late = np.arange(first, round(alone.duration / COARSE) + 1)
+    return Stand(alone, Block(case.block, case.height, case.stiffness)).run(late * COARSE)
+
+
 def peak(time: np.ndarray, values: np.ndarray) -> tuple[float, float]:
     """When and how large the largest is, by the polynomial through five records."""
     k = int(values.argmax())
@@ -97,3 +107,25 @@ def test_a_valve_for_40_megapascal_stays_closed() -> None:
     assert peak(result.time, result["leg0.pressure"])[1] == pytest.approx(13153284.1, abs=0.06)
     assert times(result, "yield valve open") == []
     assert result["leg0.yielded"][-1] == 0.0
+
+
+OTHERS = {
+    "heavy mass, small valve": Struck(mass=5e4, valve=replace(VALVE, opening_pressure=5e6, rated_flow=1e-2)),
+    "hysteresis": Struck(valve=replace(VALVE, closing_pressure=6e6)),
+    "slow poppet": Struck(valve=replace(VALVE, poppet=Poppet(mass=2.0, stiffness=1e6, damping=500.0))),
+}
+
+
+@pytest.mark.parametrize("name", OTHERS)
+def test_others_are_as_scipy_finds_them(name: str) -> None:
+    case = OTHERS[name]
+    result, found = simulate(scene(case)), by_scipy(case)
+    begin = int(np.searchsorted(result.time, found.time[0] - 0.5 * COARSE))
+    np.testing.assert_allclose(result.time[begin:], found.time, rtol=0.0, atol=1e-12)
+    for channel, key in {"pressure": "p", "yielded": "out"}.items():
+        ours, theirs = result[f"leg0.{channel}"][begin:], found[f"leg0.{key}"]
+        assert np.abs(ours - theirs).max() < 1e-7 * np.ptp(theirs), channel
+    assert found["leg0.out"][-1] > 1e-6
+    if case.valve.poppet is None:
+        theirs = found.switched("leg0.open y")
+        np.testing.assert_allclose(times(result, "yield valve open"), theirs, rtol=0.0, atol=2e-9)
